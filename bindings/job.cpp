@@ -40,7 +40,7 @@ namespace {
 
 /// Makes what a recipe asks for: search, surveys, supports and copies.
 void make(const lamella_build_options& options, lamella_job& made) {
-    const Recipe& recipe = made.recipe;
+    const Recipe recipe = first_piece(made.recipe);
     OptimizeOptions optimizing;
     optimizing.plans = options.plans ? options.plans : "";
     optimizing.threads = options.threads;
@@ -60,10 +60,13 @@ void make(const lamella_build_options& options, lamella_job& made) {
     finish.cancel = optimizing.cancel;
     const SupportStructures around = finish_job(recipe, made.built, finish);
     add_picture(recipe, made.built, around.supports, options.threads);
-    made.job = std::move(made.built.job);
-    if (recipe.plate.copies == 1 && recipe.plate.number == 1) return;
-    const PlateItem item{made.job, recipe.plate.copies};
-    made.job = put_on_plates(recipe, {&item, 1}, {options.threads, {}, optimizing.cancel}).job;
+    std::vector<PlateItem> items{{std::move(made.built.job), recipe.plate.copies}};
+    for (const Recipe& piece : other_pieces(made.recipe, made.built.pieces)) {
+        BuiltJob beside = build_job(piece, optimizing);
+        finish_job(piece, beside, finish);
+        items.push_back({std::move(beside.job), piece.plate.copies});
+    }
+    made.job = put_on_plates(recipe, items, {options.threads, {}, optimizing.cancel}).job;
 }
 
 const lamella_job& job_of(const lamella_job* job) { return wanted(job, "job"); }

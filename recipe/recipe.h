@@ -17,6 +17,7 @@
 #include "recipe/graded_number.h"
 #include "recipe/number_rows.h"
 #include "recipe/optimize_recipe.h"
+#include "recipe/pieces/cut_recipe.h"
 
 namespace lamella {
 
@@ -46,7 +47,9 @@ struct PartRecipe {
     dvec3 lay_on{0};             ///< outward direction of the face that is laid on the bed; 0: none
     NumberRows lay_on_at;        ///< a point of that face instead, mm; empty: none
     dvec3 turn{0};               ///< rotation about x, then y, then z, degrees, after laying it on a face
+    NumberRows at;               ///< x and y of its middle from the middle of the plate, mm; empty: 0, 0
     std::string name;            ///< empty: taken from the input
+    std::string tool;            ///< name of a [[tool]]; empty: the first
 };
 
 /// An object that an embedding program puts into a recipe. Empty when it gives none.
@@ -79,8 +82,8 @@ struct FieldRecipe {
 };
 
 /// The content of a region: solid, empty, or the part's foam or skin with other numbers. `blocker` keeps
-/// supports away; `enforcer` supports every overhang.
-enum class RegionMake : unsigned char { solid, empty, foam, skin, blocker, enforcer };
+/// supports away; `enforcer` supports every overhang; `tool` changes the tool alone.
+enum class RegionMake : unsigned char { solid, empty, foam, skin, blocker, enforcer, tool };
 
 /// A part of the body with other content. Among regions with the same content, later ones win.
 struct RegionRecipe {
@@ -95,6 +98,7 @@ struct RegionRecipe {
     GradedNumber window{-1.0, ""};
     GradedNumber modulus;
     GradedNumber thickness;  ///< replaces the skin's thickness
+    std::string tool;        ///< name of a [[tool]] that makes what is in the region; empty: as around it
 };
 
 /// A grading: a number that varies in space, which formulas use by its name.
@@ -154,6 +158,7 @@ struct FoamRecipe {
     NumberRows struts;      ///< lattice: ends in the unit cube, six numbers each
     GradedNumber modulus;   ///< Young's modulus, MPa, from which cells or members follow; 0: none
     std::string law;        ///< path of a file of foam laws; empty: the built-in laws
+    std::string tool;       ///< name of a [[tool]]; empty: that of the part
     bool drop_islands = false;
     double islands_pitch = 0;  ///< row spacing of the island survey, mm; 0: derived from the foam
 };
@@ -201,6 +206,7 @@ struct SkinRecipe {
                               ///< highest
     double drain_radius = 0;  ///< mm; 0: derived from the skin
     double drain_pitch = 0;   ///< row spacing of the cavity survey, mm; 0: derived from the skin
+    std::string tool;         ///< name of a [[tool]]; empty: that of the part
 };
 
 /// Cavities whose roofs print without supports.
@@ -243,6 +249,13 @@ enum class SupportKind : unsigned char {
     pillars   ///< a pillar under every support point
 };
 
+/// Tools (extruders) that make supports: names of [[tool]] entries.
+struct SupportToolsRecipe {
+    std::string tool;            ///< empty: that of the part
+    std::string interface_tool;  ///< of supports near the part; empty: as `tool`
+    double interface = 1;        ///< distance from the part within which supports are near, mm
+};
+
 /// A hole drilled through the skin.
 struct HoleRecipe {
     std::string where;     ///< where the entry begins, for messages
@@ -269,6 +282,7 @@ struct PlateRecipe {
     double gap = 5;     ///< distance between neighbours, mm
     bool turn = false;  ///< whether parts may be turned by right angles
     int number = 1;     ///< the plate to make, where one is not enough
+    int piece = 0;      ///< the one to make of a part that is cut, from 1; 0: all
 };
 
 /// Outputs other than layers.
@@ -298,7 +312,9 @@ struct Recipe {
     std::optional<ProcessRecipe> process;
     std::optional<RepairRecipe> repair;
     std::vector<HoleRecipe> holes;
+    std::vector<CutRecipe> cuts;
     SupportKind support = SupportKind::none;
+    SupportToolsRecipe support_tools;
     LayersRecipe layers;
     PlateRecipe plate;
     OutputRecipe output;

@@ -39,7 +39,7 @@ std::vector<std::string> keys_of(const Kind& kind) {
 std::vector<std::string> needs_of_list(std::string_view section) {
     if (section == "hole") return {"at", "radius"};
     if (section == "load") return {"force|pressure"};
-    if (section == "region" || section == "anchor" || section == "element") return {};
+    if (section == "region" || section == "anchor" || section == "element" || section == "cut") return {};
     return {"name"};
 }
 
@@ -356,6 +356,7 @@ Recipe RecipeDraft::assemble() {
     for (std::size_t i = 0; i < recipe.element_shapes.size(); ++i)
         recipe.element_shapes[i].where = where_begins("element", i);
     for (std::size_t i = 0; i < recipe.holes.size(); ++i) recipe.holes[i].where = where_begins("hole", i);
+    for (std::size_t i = 0; i < recipe.cuts.size(); ++i) recipe.cuts[i].where = where_begins("cut", i);
     if (count(*find_section("optimize")) > 0 && !recipe.optimize) recipe.optimize.emplace();
     if (count(*find_section("elements")) > 0 && !recipe.elements) recipe.elements.emplace();
     if (recipe.optimize && recipe.optimize->kind == OptimizeKind::lightness && !entry("optimize", "volume"))

@@ -124,6 +124,8 @@ class RecipeDraft {
     void check_frame(const Recipe& recipe);
     void check_output(const OutputRecipe& output);
     void check_scripts(const GcodeProfile& gcode);
+    void check_tools(const Recipe& recipe);  ///< recipe_tools.cpp
+    void check_cuts(const Recipe& recipe);
     void check_support(const PrinterProfile& printer);
     void check_limits(const std::string& section, const std::string& key, const GradedNumber& number,
                       double least, double most);

@@ -75,10 +75,10 @@ void check_region(const Recipe& recipe, const RegionRecipe& region, std::vector<
                             region.where));
             return;
         }
-        if (numbers.empty()) {
+        if (numbers.empty() && region.tool.empty()) {
             mistakes.push_back(
                 fmt::format("{}: sets no number of the foam; accepted: one or more of cell, beam, wall, "
-                            "window and modulus",
+                            "window, modulus and tool",
                             region.where));
         }
     }

@@ -192,7 +192,7 @@ void RecipeDraft::check_support(const PrinterProfile& printer) {
 void RecipeDraft::check_scripts(const GcodeProfile& gcode) {
     for (const auto& [key, script] :
          {std::pair("start_script", &gcode.start_script), std::pair("layer_script", &gcode.layer_script),
-          std::pair("end_script", &gcode.end_script)}) {
+          std::pair("end_script", &gcode.end_script), std::pair("tool_script", &gcode.tool_script)}) {
         if (const auto mistake = script_mistake(*script, gcode.flavour))
             refuse(0, fmt::format("{}: {}", where("printer", key), *mistake));
     }
@@ -218,6 +218,30 @@ void RecipeDraft::check_cut_skin(const Recipe& recipe) {
         fmt::format(
             "{}: a skin with windows, holes or drains must lie inside the body's surface; accepted: inside",
             where("skin", "side")));
+}
+
+/// Checks cuts, and the keys that say how their pieces are joined.
+void RecipeDraft::check_cuts(const Recipe& recipe) {
+    constexpr std::size_t most = 8;
+    if (recipe.cuts.size() > most)
+        refuse(0, fmt::format("{}: there are {} cuts; accepted: at most {}", recipe.cuts[most].where,
+                              recipe.cuts.size(), most));
+    if (entry("plate", "piece") && recipe.plate.piece > 0 && recipe.cuts.empty())
+        refuse(0, fmt::format("{}: nothing cuts the part into pieces; accepted: [[cut]] as well",
+                              where("plate", "piece")));
+    for (std::size_t i = 0; i < recipe.cuts.size(); ++i) {
+        const CutRecipe& cut = recipe.cuts[i];
+        if (cut.normal == dvec3(0))
+            refuse(0, fmt::format("{}: has no direction; accepted: a vector with a length",
+                                  where("cut", "normal", i)));
+        if (cut.joint != CutJoint::none) continue;
+        for (const char* key : {"joints", "diameter", "depth", "clearance", "wall"}) {
+            if (!entry("cut", key, i)) continue;
+            refuse(0, fmt::format("{}: has no effect without a joint; accepted: cut.joint = \"pins\" or "
+                                  "\"dowels\" as well",
+                                  where("cut", key, i)));
+        }
+    }
 }
 
 /// Checks drains against their keys and the foam.
@@ -317,6 +341,8 @@ void RecipeDraft::check_numbers(const Recipe& recipe) {
     check_layers(recipe.layers);
     check_enclosures(recipe);
     check_scripts(recipe.printer.gcode);
+    check_tools(recipe);
+    check_cuts(recipe);
     if (recipe.support != SupportKind::none) check_support(recipe.printer);
     if (recipe.support != SupportKind::none && cuts_sheets(recipe.printer)) {
         refuse(0, fmt::format(

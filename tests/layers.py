@@ -17,7 +17,7 @@ procedural/elasticity procedural/optimization procedural/appearance procedural/t
 procedural/pattern procedural/lattice
 printers/common printers/polygons printers/readers printers/archive printers/toolpath printers/masks printers/vector
 printers/gcode printers/serial printers
-recipe recipe/keys recipe/layering recipe/build recipe/placement recipe/structure recipe/output
+recipe/pieces recipe recipe/keys recipe/layering recipe/build recipe/placement recipe/structure recipe/output
 bindings
 app/console app/ranks app/reports app/commands
 """.split()

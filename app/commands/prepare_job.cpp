@@ -86,11 +86,16 @@ OptimizeOptions optimize_options(const JobOptions& options, const CancelToken& c
 void fill_plate(const Recipe& recipe, BuiltJob& built, const std::vector<Recipe>& others,
                 const JobOptions& options, const CancelToken& cancel) {
     std::vector<PlateItem> items{{built.job, recipe.plate.copies}};
-    for (const Recipe& other : others) {
+    const auto add = [&](const Recipe& other) {
         BuiltJob beside = build_job(other, optimize_options(options, cancel));
         stop_if_cancelled(&cancel);
         finish_with_progress(other, beside, options, cancel);
         items.push_back({beside.job, other.plate.copies});
+        return beside.pieces;
+    };
+    for (const Recipe& piece : other_pieces(recipe, built.pieces)) add(piece);
+    for (const Recipe& other : others) {
+        for (const Recipe& piece : other_pieces(other, add(first_piece(other)))) add(piece);
     }
     PlatedJob plated = put_on_plates(recipe, items, {options.threads, {}, &cancel});
     built.job = std::move(plated.job);
@@ -141,7 +146,8 @@ std::string resuming(const std::vector<std::string>& arguments) {
     return line + " --resume";
 }
 
-PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const CancelToken& cancel) {
+PreparedJob prepare_job(const JobOptions& options, const Recipe& given, const CancelToken& cancel) {
+    const Recipe recipe = first_piece(given);
     BuiltJob built = build_job(recipe, optimize_options(options, cancel));
     stop_if_cancelled(&cancel);  // before the design was good enough
     if (!options.quiet) note_unused(options.recipe, recipe);
@@ -168,13 +174,17 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& recipe, const C
     if (built.dowels && !options.quiet)
         std::fputs(("dowels: " + dowels_text(*built.dowels) + "\n").c_str(), stderr);
     std::vector<Recipe> others = read_beside(options, recipe);
+    if (!recipe.printer.tools.empty() && !makes_beads(recipe.printer) && !options.quiet)
+        std::fputs(fmt::format("[[tool]]: {} has none, and makes the whole part of one material\n",
+                               recipe.printer.name)
+                       .c_str(),
+                   stderr);
     // Surveys take time: report mistakes before them.
     check_layer_heights(recipe.printer, built.job.layers.raised(lift_layers(recipe)));
     parse_layers(options.layers, built.job.layers.count() + lift_layers(recipe).count());
     const SupportStructures around = finish_with_progress(recipe, built, options, cancel);
     add_picture(recipe, built, around.supports, options.threads);
-    if (recipe.plate.copies > 1 || recipe.plate.number > 1 || !others.empty())
-        fill_plate(recipe, built, others, options, cancel);
+    fill_plate(given, built, others, options, cancel);
     StreamOptions stream;
     stream.range = parse_layers(options.layers, built.job.layers.count());
     stream.threads = options.threads;

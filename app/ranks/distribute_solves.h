@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/ranks/distribute_tasks.h"
-#include "recipe/build/foam_stiffness.h"
+#include "recipe/structure/foam_stiffness.h"
 
 namespace lamella {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "recipe/build/foam_stiffness.h"
+#include "recipe/structure/foam_stiffness.h"
 
 namespace lamella {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "recipe/build/foam_stiffness.h"
+#include "recipe/structure/foam_stiffness.h"
 
 namespace lamella {
 

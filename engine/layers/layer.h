@@ -24,6 +24,12 @@ struct JobObject {
     Rect covers{};      ///< what both cover of the bed, in the job's coordinates, mm
 };
 
+/// What one tool (extruder) makes of a job's part or supports.
+struct ToolZone {
+    int tool = 0;   ///< from 0
+    FieldPtr zone;  ///< bounded; null: everywhere
+};
+
 /// A print job: a solid and how it is cut into layers, each at its mid-height.
 struct Job {
     std::string name = "part";  ///< short name for file names and headers
@@ -35,6 +41,9 @@ struct Job {
     /// carry a preview. May be empty.
     std::function<Picture(int size)> picture{};
     std::vector<JobObject> objects{};  ///< the parts that the job consists of; empty for a single one
+    /// The tools of part and supports: later zones win, and the first is everywhere. Empty: the first tool.
+    std::vector<ToolZone> part_tools{}, support_tools{};
+    FieldPtr purge_tower{};            ///< a box beside the part, in which tools are purged; null for none
     std::vector<std::string> notes{};  ///< lines of text for people, for files that carry comments
     std::string identity;  ///< hash of recipe and inputs; jobs of equal identity produce the same bytes
 

@@ -81,6 +81,8 @@ class PlateJob {
   public:
     explicit PlateJob(const Job& first) : plate_(first), bed_(first.z0()) {
         plate_.part = plate_.supports = nullptr;
+        plate_.part_tools.clear();
+        plate_.support_tools.clear();
         plate_.bounds = {};
         plate_.layers = {};
         plate_.identity.clear();
@@ -95,6 +97,13 @@ class PlateJob {
         };
         parts_.push_back(placed(job.part));
         if (job.supports) supports_.push_back(placed(job.supports));
+        const auto add_tools = [&](const std::vector<ToolZone>& zones, const FieldPtr& solid,
+                                   std::vector<ToolZone>& all) {
+            for (const ToolZone& zone : zones)
+                all.push_back({zone.tool, zone.zone ? make_intersection({placed(zone.zone), solid}) : solid});
+        };
+        add_tools(job.part_tools, parts_.back(), plate_.part_tools);
+        if (job.supports) add_tools(job.support_tools, supports_.back(), plate_.support_tools);
         const Rect covers = quarter_turned(standing.covers, standing.quarters);
         plate_.objects.push_back({fmt::format("{}_{}", job.name, parts_.size()),
                                   parts_.back(),
@@ -110,6 +119,10 @@ class PlateJob {
             if (!plate_.identity.empty()) plate_.identity += "+";
             plate_.identity += item->job.identity;
             if (copies > 1) plate_.identity += "x" + std::to_string(copies);
+        }
+        // Parts without zones are made by the first tool.
+        for (std::vector<ToolZone>* zones : {&plate_.part_tools, &plate_.support_tools}) {
+            if (!zones->empty()) zones->insert(zones->begin(), ToolZone{});
         }
         plate_.part = make_union(std::move(parts_));
         if (!supports_.empty()) plate_.supports = make_union(std::move(supports_));

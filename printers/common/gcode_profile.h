@@ -17,7 +17,7 @@ enum class Flavour : unsigned char {
 struct GcodeProfile {
     Flavour flavour = Flavour::marlin;
     /// Scripts with variables in braces (see gcode_script.h); empty: the default scripts of the flavour.
-    std::string start_script, layer_script, end_script;
+    std::string start_script, layer_script, end_script, tool_script;
     bool prime_line = true;                     ///< prime the nozzle along the bed's front edge
     double first_layer_nozzle_temperature = 0;  ///< degrees Celsius; 0: as for the other layers
     double first_layer_bed_temperature = 0;     ///< degrees Celsius; 0: as for the other layers

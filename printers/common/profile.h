@@ -7,6 +7,7 @@
 
 #include "printers/common/check_profile.h"
 #include "printers/common/gcode_profile.h"
+#include "printers/common/tool_profile.h"
 
 namespace lamella {
 
@@ -198,6 +199,8 @@ struct PrinterProfile {
     FilamentProfile filament;
     ToolpathProfile toolpath;
     GcodeProfile gcode;
+    std::vector<ToolProfile> tools;  ///< by number; empty: one, with the settings of `filament`
+    PurgeProfile purge;
     LaserProfile laser;
     SupportProfile support;
     CheckProfile check;

@@ -2,16 +2,18 @@
 #include "printers/gcode/gcode.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
 #include "printers/archive/json_number.h"
+#include "printers/gcode/bead_text.h"
 #include "printers/gcode/gcode_flavour.h"
 #include "printers/gcode/gcode_roles.h"
 #include "printers/gcode/gcode_script.h"
@@ -20,7 +22,8 @@
 #include "printers/gcode/gcode_thumbnail.h"
 #include "printers/gcode/gcode_travel.h"
 #include "printers/gcode/laser_gcode.h"
-#include "printers/toolpath/neighbour_layers.h"
+#include "printers/gcode/layer_beads.h"
+#include "printers/toolpath/purge_tower.h"
 #include "printers/toolpath/skirt.h"
 
 namespace lamella {
@@ -37,18 +40,9 @@ double reach_beside(const PrinterProfile& profile, double layer_height) {
 }
 
 struct GcodeProduct : LayerProduct {
-    void serialize(Archive& parcel) override {
-        parcel(text, first, last, trail, filament, support_filament, slowed, seconds, islands_left_out);
-    }
+    void serialize(Archive& parcel) override { parcel(texts, islands_left_out); }
 
-    std::string text;  ///< from the first bead on; empty for an empty layer
-    dvec2 first{0};    ///< start of the first bead on the bed, mm
-    dvec2 last{0};
-    std::vector<dvec2> trail;     ///< path from the end of the last bead along which the nozzle may be wiped
-    double filament = 0;          ///< mm
-    double support_filament = 0;  ///< share of supports in `filament`, mm
-    double slowed = 0;            ///< length of extrusion slowed down for the rate of lines, mm
-    std::vector<double> seconds;  ///< duration of each move
+    std::vector<BeadText> texts;  ///< in printing order
     int islands_left_out = 0;
 };
 
@@ -66,7 +60,10 @@ class Gcode : public Backend {
     int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         for (const EqualLayers& layers : job.layers.runs()) check_filament_profile(profile_, layers.height);
-        neighbours_.emplace(job, filament_.tolerance);
+        beads_.emplace(job, profile_);
+        tools_ = tools_of(job);
+        tool_ = tools_.front();
+        filament_used_.assign(static_cast<std::size_t>(tools_.back()) + 1, 0);
         supported_ = job.supports != nullptr;
         if (supported_) check_support_speed(profile_.support);
         check_fit(job);
@@ -88,29 +85,12 @@ class Gcode : public Backend {
 
     std::unique_ptr<LayerProduct> render(const Layer& layer) const override {
         auto product = std::make_unique<GcodeProduct>();
-        const auto outlines = neighbours_->outlines(layer.index());
-        stop_if_cancelled(layer.cancel());
-        const std::vector<Contour>& contours = outlines->part;
-        const std::vector<Contour>& supports = outlines->supports;
-        for (const Contour& contour : contours) product->area += signed_area(contour.points);
-        for (const Contour& contour : supports) product->support_area += signed_area(contour.points);
-        // Brim and skirt come first, then supports, because the part rests on them. Supports are always
-        // filled completely.
-        const std::optional<LayerBelow> footing = this->footing(layer);
-        const std::optional<PlacedPolygons> core = this->core(layer);
-        const auto pointer = [](const auto& held) { return held ? &*held : nullptr; };
-        Toolpaths paths = round(layer, contours, supports);
-        append(plan(layer, supports, 1, {pointer(footing), nullptr}), paths, Role::support);
-        append(plan(layer, contours, filament_.infill_density, {pointer(footing), pointer(core)}), paths);
+        const LayerPaths paths = beads_->plan(layer, labels_);
         product->islands_left_out = paths.islands_left_out;
-        for (Bead& bead : paths.beads) {
-            if (bead.role != Role::skirt)
-                bead.object = labels_.object_at({bead.points[bead.points.size() / 2], layer.z()});
-        }
-        if (paths.beads.empty()) {
-            product->area = product->support_area = 0;  // sections too small for a bead
-        } else {
-            lay(paths, layer, *product);
+        product->texts = bead_texts(paths, layer, {profile_, labels_, shift_, fan(layer.index())});
+        if (!product->texts.empty()) {  // else the sections are too small for a bead
+            product->area = paths.part_area;
+            product->support_area = paths.support_area;
         }
         return product;
     }
@@ -128,30 +108,31 @@ class Gcode : public Backend {
         text.line(fan_line(gcode_.flavour, fan(index)));
         if (index > range_.first) change_heat(index, text);
         text.lines(expand_script(layer_script(gcode_), values(index)));
-        const bool prints = !product.text.empty();
-        const double below = index > range_.first ? layer.bottom() : gcode_.prime_line ? prime_height : 0;
-        GcodeMoves moves(profile_, position_, below);
-        if (prints) {
-            if (moves.retracts()) moves.retract(trail_);
-            moves.lift(travel_height(profile_, layer.top(), glm::distance(position_, product.first)));
-            moves.travel(product.first);
+        double z = index > range_.first ? layer.bottom() : gcode_.prime_line ? prime_height : 0;
+        std::string beads = text.text();
+        int tool = ToolBeads::any;  // of the last text
+        bool is_changed = false;
+        for (const BeadText& next : product.texts) {
+            if (next.tool != tool) is_changed = next.tool != ToolBeads::any && next.tool != tool_;
+            tool = next.tool;
+            if (next.when != LaidWhen::always && is_changed != (next.when == LaidWhen::tool_changed))
+                continue;
+            beads += way_to(next, layer, z);
+            beads += next.text;
+            z = layer.top();
+            count(next);
         }
-        moves.lift(layer.top());
-        if (prints && moves.retracts()) moves.restore();
-        append(moves, text);
-        add(product.seconds);
-        filament_used_ += product.filament;
-        if (prints) {
-            position_ = product.last;
-            trail_ = product.trail;
-        } else {
+        if (z != layer.top()) {
+            GcodeText rise(profile_);
+            GcodeMoves moves(profile_, position_, z);
+            moves.lift(layer.top());
+            append(moves, rise);
+            beads += rise.text();
             trail_.clear();  // the nozzle has left the trail
         }
-        support_filament_ += product.support_filament;
-        slowed_ += product.slowed;
         islands_left_out_ += product.islands_left_out;
-        neighbours_->forget_below(index - profile_.toolpath.bottom_layers);
-        output_->commit(text.text() + product.text, index + 1, state());
+        beads_->forget_below(index);
+        output_->commit(beads, index + 1, state());
     }
 
     void finish() override {
@@ -164,6 +145,9 @@ class Gcode : public Backend {
         moves.lift(parked);
         moves.travel({0, filament_.bed_y});
         append(moves, text);
+        for (const int tool : tools_) {
+            if (tool != tool_) text.line(heat_line(gcode_.flavour, tool, 0));
+        }
         text.lines(expand_script(end_script(gcode_), values(range_.last - 1)));
         text.line(end_progress(gcode_.flavour, range_.last));
         write_facts(text);
@@ -171,78 +155,62 @@ class Gcode : public Backend {
     }
 
   private:
-    Toolpaths plan(const Layer& layer, const std::vector<Contour>& contours, double density,
-                   const LayerNeighborhood& around) const {
-        const ToolpathProfile& t = profile_.toolpath;
-        return plan_toolpaths(contours, {line(layer), t.walls, density, t.infill, t.seam}, layer.index(),
-                              around, layer.cancel());
-    }
-    /// Returns the layer below; empty for the first layer.
-    std::optional<LayerBelow> footing(const Layer& layer) const {
-        if (layer.index() == 0) return std::nullopt;
-        return neighbours_->footing(layer.index(), filament_.line_width / 4);
-    }
-    /// Returns the region where infill may be sparse; empty if no solid layers are required.
-    std::optional<PlacedPolygons> core(const Layer& layer) const {
-        const ToolpathProfile& t = profile_.toolpath;
-        if (filament_.infill_density >= 1 || t.top_layers + t.bottom_layers == 0) return std::nullopt;
-        return neighbours_->core(layer.index(), t.bottom_layers, t.top_layers);
-    }
-    LineSettings line(const Layer& layer) const {
-        return {filament_.line_width, layer.thickness(), filament_.tolerance};
-    }
-
-    /// Returns brim and skirt of the first layer; empty for other layers.
-    Toolpaths round(const Layer& layer, const std::vector<Contour>& part,
-                    const std::vector<Contour>& supports) const {
-        if (layer.index() > 0) return {};
-        Polygons standing;
-        for (const std::vector<Contour>* contours : {&part, &supports}) {
-            for (const Contour& contour : *contours) standing.push_back(to_polygon(contour.points));
+    /// Returns the lines from the last bead to the first of these, with a change of tools where they need
+    /// one.
+    std::string way_to(const BeadText& next, const Layer& layer, double z) {
+        GcodeText text(profile_);
+        GcodeMoves moves(profile_, position_, z);
+        if (moves.retracts()) moves.retract(trail_);
+        moves.lift(travel_height(profile_, layer.top(), glm::distance(position_, next.first)));
+        moves.travel(next.first);
+        const auto go_on = [&](GcodeMoves& down) {
+            down.lift(layer.top());
+            if (down.retracts()) down.restore();
+            append(down, text);
+        };
+        if (next.tool == ToolBeads::any || next.tool == tool_) {
+            go_on(moves);
+        } else {
+            append(moves, text);
+            change_tool(next.tool, layer.index(), text);
+            GcodeMoves down(profile_, position_, moves.z());
+            go_on(down);
         }
-        Toolpaths paths;
-        paths.beads = skirt_beads(standing, profile_.toolpath, line(layer));
-        if (!paths.beads.empty()) paths.outlines.emplace_back();  // empty: travel is not confined
-        return paths;
+        return text.text();
     }
 
-    static void append(Toolpaths added, Toolpaths& paths, std::optional<Role> role = {}) {
-        const auto islands = static_cast<int>(paths.outlines.size());
-        for (Bead& bead : added.beads) {
-            bead.island += islands;
-            bead.role = role.value_or(bead.role);
-        }
-        std::ranges::move(added.beads, std::back_inserter(paths.beads));
-        std::ranges::move(added.outlines, std::back_inserter(paths.outlines));
-        paths.islands_left_out += added.islands_left_out;
+    void change_tool(int tool, int layer, GcodeText& text) {
+        ScriptValues values = this->values(layer);
+        values.previous_tool = std::exchange(tool_, tool);
+        values.tool = tool;
+        values.nozzle_temperature = nozzle_temperature(layer);
+        if (const double standby = tool_profile(values.previous_tool).standby_temperature; standby > 0)
+            text.line(heat_line(gcode_.flavour, values.previous_tool, standby));
+        text.lines(expand_script(tool_script(gcode_), values));
     }
 
-    /// Turns beads into lines. The beads of supports come first.
-    void lay(const Toolpaths& paths, const Layer& layer, GcodeProduct& product) const {
-        const std::vector<Bead>& beads = paths.beads;
-        product.first = beads.front().points.front() + shift_;
-        GcodeMoves planned(profile_, product.first, layer.top());
-        product.trail = add_beads(paths, profile_, layer.thickness(), layer.index() == 0, shift_, planned,
-                                  layer.cancel());
-        std::vector<GcodeMove>& moves = planned.moves();
-        slow_to_time(moves, product.first, gcode_);
-        product.slowed = slow_to_rate(moves, gcode_);
-        product.seconds = seconds_of(moves, product.first, gcode_);
-        product.last = planned.position();
-        GcodeText text(profile_, &labels_);
-        text.fan(fan(layer.index()), gcode_.bridge_fan);
-        text.moves(moves, product.first, beads);
-        product.text = text.text();
-        product.filament = text.filament();
-        for (const GcodeMove& move : moves) {
-            if (move.bead >= 0 && beads[static_cast<std::size_t>(move.bead)].role == Role::support)
-                product.support_filament += move.filament;
-        }
+    void count(const BeadText& laid) {
+        add(laid.seconds);
+        filament_used_[static_cast<std::size_t>(tool_)] += laid.filament;
+        support_filament_ += laid.support_filament;
+        slowed_ += laid.slowed;
+        position_ = laid.last;
+        trail_ = laid.trail;
     }
 
+    /// Returns the tool's own settings; the default ones where the machine has a single tool.
+    ToolProfile tool_profile(int tool) const {
+        const auto number = static_cast<std::size_t>(tool);
+        return number < profile_.tools.size() ? profile_.tools[number] : ToolProfile{};
+    }
     double nozzle_temperature(int layer) const {
-        const double first = gcode_.first_layer_nozzle_temperature;
-        return layer == 0 && first > 0 ? first : filament_.nozzle_temperature;
+        const ToolProfile tool = tool_profile(tool_);
+        const double all = tool.nozzle_temperature;
+        const double first = tool.first_layer_nozzle_temperature > 0 ? tool.first_layer_nozzle_temperature
+                             : all > 0                               ? all
+                                                                     : gcode_.first_layer_nozzle_temperature;
+        if (layer == 0 && first > 0) return first;
+        return all > 0 ? all : filament_.nozzle_temperature;
     }
     double bed_temperature(int layer) const {
         const double first = gcode_.first_layer_bed_temperature;
@@ -273,14 +241,21 @@ class Gcode : public Backend {
                 filament_.bed_x,
                 filament_.bed_y,
                 filament_.bed_z,
-                filament_used_};
+                std::accumulate(filament_used_.begin(), filament_used_.end(), 0.0),
+                tool_,
+                tool_};
     }
 
-    const char* with_what(bool skirted) const {
-        if (skirted)
-            return supported_ ? "the part with its supports, brim and skirt is"
-                              : "the part with its brim and skirt is";
-        return supported_ ? "the part with its supports is" : "the part is";
+    std::string with_what(const Job& job, bool skirted) const {
+        std::vector<std::string> more;
+        if (supported_) more.emplace_back("supports");
+        if (job.purge_tower) more.emplace_back("purge tower");
+        if (skirted) more.insert(more.end(), {"brim", "skirt"});
+        if (more.empty()) return "the part is";
+        const std::string last = more.back();
+        more.pop_back();
+        return fmt::format("the part with its {}{}{} is", fmt::join(more, ", "), more.empty() ? "" : " and ",
+                           last);
     }
 
     void check_fit(const Job& job) const {
@@ -294,11 +269,12 @@ class Gcode : public Backend {
             top <= available.z * (1 + slack)) {
             return;
         }
-        throw InputError(fmt::format(
-            "{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
-            "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
-            "larger printer",
-            with_what(reach > 0), size.x, size.y, top, available.x, available.y, available.z, prime_strip));
+        throw InputError(
+            fmt::format("{} {:.3f} x {:.3f} x {:.3f} mm but the bed has room for {:.3f} x {:.3f} x {:.3f} "
+                        "mm (a strip of {} mm round it is for priming); scale or turn the part, or choose a "
+                        "larger printer",
+                        with_what(job, reach > 0), size.x, size.y, top, available.x, available.y, available.z,
+                        prime_strip));
     }
 
     /// Returns comments, heating, homing and the priming line.
@@ -317,8 +293,20 @@ class Gcode : public Backend {
         if (sets_acceleration(gcode_) && has_travel_acceleration(gcode_.flavour))
             text.line(travel_acceleration_line(travel_acceleration(gcode_)));
         text.lines(labels_.definitions());
+        select_tool(text);
         if (gcode_.prime_line) prime(text);
         return text.text();
+    }
+
+    /// Selects the first tool and begins to heat those that have a nozzle of their own.
+    void select_tool(GcodeText& text) const {
+        if (tools_.size() == 1 && tool_ == 0) return;
+        for (const int tool : tools_) {
+            if (tool != tool_ && tool_profile(tool).standby_temperature > 0)
+                text.line(heat_line(gcode_.flavour, tool, tool_profile(tool).standby_temperature));
+        }
+        text.line(fmt::format("T{}", tool_));
+        text.line("M109 S" + format_number(nozzle_temperature(range_.first), 0));
     }
 
     void prime(GcodeText& text) {
@@ -332,7 +320,7 @@ class Gcode : public Backend {
         moves.extrude(straight_pieces(std::vector<dvec2>{from, to}).front(), bead_area(width, prime_height),
                       filament_.first_layer_speed, gcode_.acceleration, -1);
         append(moves, text);
-        filament_used_ += text.filament();
+        filament_used_[static_cast<std::size_t>(tool_)] += text.filament();
     }
 
     /// Appends moves that begin at the nozzle as lines, and counts their duration.
@@ -353,14 +341,26 @@ class Gcode : public Backend {
     void write_facts(GcodeText& text) const {
         const double section = pi / 4 * filament_.filament * filament_.filament / 1000;  // cm3 per mm
         const double density = profile_.support.density;
-        const auto used = [&](const char* what, double filament) {
-            text.line(fmt::format("; {} used [mm] = {}", what, format_number(filament, 2)));
-            text.line(fmt::format("; {} used [cm3] = {}", what, format_number(filament * section, 3)));
-            text.line(
-                fmt::format("; {} used [g] = {}", what, format_number(filament * section * density, 2)));
+        const auto used = [&](const char* what, const std::vector<double>& filament) {
+            const auto list = [&](auto amount, int decimals) {
+                std::string numbers;
+                for (std::size_t tool = 0; tool < filament.size(); ++tool) {
+                    if (tool > 0) numbers += ", ";
+                    numbers += format_number(amount(static_cast<int>(tool), filament[tool]), decimals);
+                }
+                return numbers;
+            };
+            const auto grams = [&](int tool, double mm) {
+                const double own = tool_profile(tool).density;
+                return mm * section * (own > 0 ? own : density);
+            };
+            text.line(fmt::format("; {} used [mm] = {}", what, list([](int, double mm) { return mm; }, 2)));
+            text.line(fmt::format("; {} used [cm3] = {}", what,
+                                  list([&](int, double mm) { return mm * section; }, 3)));
+            text.line(fmt::format("; {} used [g] = {}", what, list(grams, 2)));
         };
         used("filament", filament_used_);
-        if (supported_) used("support material", support_filament_);
+        if (supported_ && tools_.size() == 1) used("support material", {support_filament_});
         text.line("; filament density [g/cm3] = " + format_number(density, 3));
         text.line("; estimated printing time (normal mode) = " + duration_text(seconds_));
         text.line(fmt::format("; worst segment rate [lines/s] = {} over {} lines",
@@ -376,13 +376,27 @@ class Gcode : public Backend {
     nlohmann::ordered_json state() const {
         auto trail = nlohmann::ordered_json::array();
         for (const dvec2 point : trail_) trail.push_back({point.x, point.y});
-        return {position_.x,       position_.y, filament_used_, seconds_,       islands_left_out_,
-                support_filament_, slowed_,     rate_.worst(),  rate_.recent(), trail};
+        return {position_.x,
+                position_.y,
+                filament_used_,
+                seconds_,
+                islands_left_out_,
+                support_filament_,
+                slowed_,
+                rate_.worst(),
+                rate_.recent(),
+                trail,
+                tool_};
     }
     void restore(const nlohmann::ordered_json& state) {
         try {
             position_ = {state.at(0).get<double>(), state.at(1).get<double>()};
-            filament_used_ = state.at(2).get<double>();
+            const auto used = state.at(2).get<std::vector<double>>();
+            const int tool = whole_number<int>(state.at(10));
+            if (used.size() != filament_used_.size() || std::ranges::find(tools_, tool) == tools_.end())
+                throw output_->damaged_state();
+            filament_used_ = used;
+            tool_ = tool;
             seconds_ = state.at(3).get<double>();
             islands_left_out_ = whole_number<std::int64_t>(state.at(4));
             support_filament_ = state.at(5).get<double>();
@@ -400,14 +414,16 @@ class Gcode : public Backend {
     const FilamentProfile& filament_;
     const GcodeProfile& gcode_;
     std::unique_ptr<GcodeOutput> output_;
-    std::optional<NeighbourLayers> neighbours_;  // set by open
+    std::optional<LayerBeads> beads_;  // set by open
     LayerPlan layers_;
     ObjectLabels labels_;
     LayerRange range_;
     dvec2 shift_{0};  // from part to bed coordinates, mm
     dvec2 position_{0};
-    double filament_used_ = 0;     // mm
-    double support_filament_ = 0;  // share of supports in it, mm
+    std::vector<int> tools_;             // of the job, ascending
+    int tool_ = 0;                       // in use
+    std::vector<double> filament_used_;  // by tool, mm
+    double support_filament_ = 0;        // share of supports in it, mm
     double seconds_ = 0;
     double slowed_ = 0;  // mm of extrusion
     RateMeter rate_;

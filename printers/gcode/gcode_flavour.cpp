@@ -24,6 +24,14 @@ std::string_view default_end_script(Flavour flavour) {
     return flavour == Flavour::grbl ? "M2" : "M104 S0\nM140 S0\nM107\nM84";
 }
 
+std::string heat_line(Flavour flavour, int tool, double temperature) {
+    const std::string degrees = format_number(temperature, 0);
+    // M104 would make another tool's temperature the active one for good.
+    if (flavour == Flavour::reprapfirmware && temperature > 0)
+        return fmt::format("G10 P{} R{}", tool, degrees);
+    return fmt::format("M104 T{} S{}", tool, degrees);
+}
+
 std::string fan_line(Flavour flavour, double share) {
     if (!(share > 0)) return "M107";
     // RepRapFirmware interprets numbers up to 1 as shares.

@@ -17,6 +17,10 @@ std::size_t longest_line(Flavour flavour);
 std::string_view default_start_script(Flavour flavour);
 std::string_view default_layer_script(Flavour flavour);
 std::string_view default_end_script(Flavour flavour);
+inline constexpr std::string_view default_tool_script = "T{tool}\nM109 S{nozzle_temperature}";
+
+/// Returns the line that lets a tool cool down, or heats it, without waiting, degrees Celsius.
+std::string heat_line(Flavour flavour, int tool, double temperature);
 
 /// Returns the line that sets the fan to a share of its full speed, 0 to 1.
 std::string fan_line(Flavour flavour, double share);

@@ -215,9 +215,9 @@ std::vector<double> seconds_of(std::span<const GcodeMove> moves, dvec2 position,
     return move_times(motion, profile.junction_deviation);
 }
 
-void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProfile& profile) {
-    if (profile.min_layer_time <= 0 || moves.empty()) return;
-    if (total_of(seconds_of(moves, position, profile)) >= profile.min_layer_time) return;
+void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProfile& profile, double least) {
+    if (least <= 0 || moves.empty()) return;
+    if (total_of(seconds_of(moves, position, profile)) >= least) return;
     const std::vector<GcodeMove> fast = moves;
     double fastest = 0;
     for (const GcodeMove& move : fast) {
@@ -232,11 +232,11 @@ void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProf
         return total_of(seconds_of(moves, position, profile));
     };
     double too_fast = 1, slow_enough = std::min(1.0, profile.min_speed / std::max(fastest, 1e-9));
-    if (apply(slow_enough) < profile.min_layer_time) return;
+    if (apply(slow_enough) < least) return;
     constexpr int halvings = 20;  // until the speed is accurate to a millionth
     for (int i = 0; i < halvings; ++i) {
         const double middle = (too_fast + slow_enough) / 2;
-        (apply(middle) < profile.min_layer_time ? too_fast : slow_enough) = middle;
+        (apply(middle) < least ? too_fast : slow_enough) = middle;
     }
     apply(slow_enough);
 }

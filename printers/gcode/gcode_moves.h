@@ -72,9 +72,8 @@ std::vector<dvec2> add_beads(const Toolpaths& paths, const PrinterProfile& profi
 /// Returns the duration of each move, s. The first move begins at `position`.
 std::vector<double> seconds_of(std::span<const GcodeMove> moves, dvec2 position, const GcodeProfile& profile);
 
-/// Slows extrusion down, as evenly as the lowest speed allows, until the moves take `profile.min_layer_time`
-/// together.
-void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProfile& profile);
+/// Slows extrusion down, as evenly as the lowest speed allows, until the moves take this time together, s.
+void slow_to_time(std::vector<GcodeMove>& moves, dvec2 position, const GcodeProfile& profile, double least);
 
 /// Slows moves down until no window of `profile.planner_blocks` consecutive moves exceeds the machine's rate
 /// of lines. Acceleration is ignored; it only adds time. Shorter windows at both ends get a proportional

@@ -19,6 +19,8 @@ const char* role_name(const Bead& bead) {
             return "Skirt/Brim";
         case Role::support:
             return "Support material";
+        case Role::purge_tower:
+            return "Wipe tower";
     }
     return "Custom";
 }
@@ -39,6 +41,7 @@ double role_speed(const PrinterProfile& profile, const Bead& bead, bool first_la
         case Role::gap_fill:
             return own(profile.gcode.thin_speed);
         case Role::skirt:
+        case Role::purge_tower:
             return profile.filament.print_speed;
         case Role::support:
             return profile.support.speed;

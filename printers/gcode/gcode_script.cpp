@@ -32,11 +32,13 @@ constexpr std::array variables{
     Variable{"bed_y", [](const ScriptValues& v) { return format_number(v.bed_y, 3); }},
     Variable{"bed_z", [](const ScriptValues& v) { return format_number(v.bed_z, 3); }},
     Variable{"filament_used", [](const ScriptValues& v) { return format_number(v.filament_used, 2); }},
+    Variable{"tool", [](const ScriptValues& v) { return std::to_string(v.tool); }},
+    Variable{"previous_tool", [](const ScriptValues& v) { return std::to_string(v.previous_tool); }},
 };
 
 /// Longer than the values of any print.
-const ScriptValues longest_values{9'999'999, 9'999'999, 9999.999,  99.999,    999,           999,
-                                  9.999,     99999.999, 99999.999, 99999.999, 999'999'999.99};
+const ScriptValues longest_values{9'999'999, 9'999'999, 9999.999,  99.999,         999, 999, 9.999,
+                                  99999.999, 99999.999, 99999.999, 999'999'999.99, 99,  99};
 
 /// Returns a line with variables replaced; a mistake is described in `mistake`.
 std::string expand_line(std::string_view line, const ScriptValues& values, std::string& mistake) {
@@ -120,7 +122,7 @@ std::string expand_script(std::string_view script, const ScriptValues& values) {
 void check_scripts(const GcodeProfile& profile) {
     for (const auto& [key, script] :
          {std::pair("start_script", &profile.start_script), std::pair("layer_script", &profile.layer_script),
-          std::pair("end_script", &profile.end_script)}) {
+          std::pair("end_script", &profile.end_script), std::pair("tool_script", &profile.tool_script)}) {
         if (const auto mistake = script_mistake(*script, profile.flavour))
             throw InputError(fmt::format("{}, {}", key, *mistake));
     }
@@ -136,6 +138,10 @@ std::string layer_script(const GcodeProfile& profile) {
 }
 std::string end_script(const GcodeProfile& profile) {
     return profile.end_script.empty() ? std::string(default_end_script(profile.flavour)) : profile.end_script;
+}
+
+std::string tool_script(const GcodeProfile& profile) {
+    return profile.tool_script.empty() ? std::string(default_tool_script) : profile.tool_script;
 }
 
 }  // namespace lamella

@@ -20,6 +20,7 @@ struct ScriptValues {
     double nozzle = 0;                                   ///< diameter, mm
     double bed_x = 0, bed_y = 0, bed_z = 0;              ///< mm
     double filament_used = 0;                            ///< filament used so far, mm
+    int tool = 0, previous_tool = 0;  ///< the tool in use, or to change to, and the last one
 };
 
 /// Returns the first mistake in a script, such as "line 3: there is no variable {laier}; ...", or nothing.
@@ -37,5 +38,6 @@ void check_scripts(const GcodeProfile& profile);
 std::string start_script(const GcodeProfile& profile);
 std::string layer_script(const GcodeProfile& profile);
 std::string end_script(const GcodeProfile& profile);
+std::string tool_script(const GcodeProfile& profile);
 
 }  // namespace lamella

@@ -110,6 +110,21 @@ void check_laser_profile(const PrinterProfile& printer) {
     check_gcode_profile(printer.gcode);
 }
 
+namespace {
+
+/// Returns the settings of several tools; nothing where there is one.
+std::string tool_settings(const PrinterProfile& profile) {
+    if (profile.tools.empty()) return "";
+    const PurgeProfile& purge = profile.purge;
+    std::string text = fmt::format(" purge {} {} {} {}", purge.volume, purge.width, purge.gap, purge.density);
+    for (const ToolProfile& tool : profile.tools)
+        text += fmt::format(" tool {} {} {} {}", tool.nozzle_temperature, tool.first_layer_nozzle_temperature,
+                            tool.standby_temperature, tool.density);
+    return text + "\ntools\n" + tool_script(profile.gcode);
+}
+
+}  // namespace
+
 std::string gcode_settings(const PrinterProfile& profile) {
     const FilamentProfile& f = profile.filament;
     const GcodeProfile& g = profile.gcode;
@@ -132,7 +147,8 @@ std::string gcode_settings(const PrinterProfile& profile) {
            fmt::format(" paths {} {} {} {} {} {} {} {}", t.walls, t.top_layers, t.bottom_layers,
                        static_cast<int>(t.infill), static_cast<int>(t.seam), t.brim, t.skirt,
                        t.skirt_distance) +
-           "\nstart\n" + start_script(g) + "\nlayer\n" + layer_script(g) + "\nend\n" + end_script(g);
+           tool_settings(profile) + "\nstart\n" + start_script(g) + "\nlayer\n" + layer_script(g) +
+           "\nend\n" + end_script(g);
 }
 
 }  // namespace lamella

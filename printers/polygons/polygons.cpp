@@ -238,6 +238,24 @@ std::vector<NestedPolygon> nested_polygons(const Polygons& polygons) {
     return nested;
 }
 
+std::vector<Contour> to_contours(const Polygons& polygons) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(polygons, ClipperLib::ptSubject, true);
+    ClipperLib::PolyTree tree;
+    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    std::vector<Contour> contours;
+    std::vector<const ClipperLib::PolyNode*> open;
+    const auto take = [&](const ClipperLib::PolyNode& node, int parent) {
+        for (const ClipperLib::PolyNode* child : node.Childs) {
+            contours.push_back({to_points(child->Contour), parent, child->IsHole()});
+            open.push_back(child);
+        }
+    };
+    take(tree, -1);
+    for (std::size_t i = 0; i < open.size(); ++i) take(*open[i], static_cast<int>(i));
+    return contours;
+}
+
 std::vector<ClipperLib::Path> rings_inside(const Polygons& rings, const Polygons& polygons) {
     std::vector<Rect> boxes;
     boxes.reserve(polygons.size());

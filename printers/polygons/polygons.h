@@ -19,6 +19,8 @@ ClipperLib::Path to_polygon(const std::vector<dvec2>& points);
 /// Converts a layer's contours, one polygon each.
 Polygons to_polygons(const std::vector<Contour>& contours);
 std::vector<dvec2> to_points(const ClipperLib::Path& polygon);
+/// Converts the borders of the polygons' union to contours, each after the one that encloses it.
+std::vector<Contour> to_contours(const Polygons& polygons);
 
 /// Returns the area, mm^2; holes count negative.
 double area_of(const Polygons& polygons);

@@ -1,6 +1,7 @@
 // MachineState: position, modes and temperatures of a printer after the lines sent so far.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -26,7 +27,7 @@ class MachineState {
     double e() const { return at_[3]; }
     double feed() const { return feed_; }
     bool relative_extrusion() const { return relative_e_; }
-    double nozzle() const { return nozzle_; }
+    double nozzle() const { return in_use() < nozzles_.size() ? nozzles_[in_use()] : 0; }
     double bed() const { return bed_; }
 
     nlohmann::ordered_json to_json() const;
@@ -41,11 +42,18 @@ class MachineState {
     /// off the part or back to it.
     std::vector<std::string> leave_from(const MachineState& left, double park_x, double park_y,
                                         double highest) const;
+    /// Returns the commands that switch off the heaters of all tools and the bed, the fan and the motors.
+    std::vector<std::string> switch_off() const;
     /// Returns the commands that restore this state on a machine that may have been reset, with the part on
     /// its bed and the nozzle at height `z`. They home X and Y, never Z.
     std::vector<std::string> take_up(double z, double park_x, double park_y, double highest) const;
 
   private:
+    /// The tool whose nozzle is heated without a T word, counted from 0.
+    std::size_t in_use() const { return tool_ < 0 ? 0 : static_cast<std::size_t>(tool_); }
+    void heat(std::size_t tool, double degrees);
+    /// Returns the commands that heat all nozzles, without waiting, and select the tool in use.
+    std::vector<std::string> tools() const;
     std::vector<std::string> modes() const;
     double lifted(double z, double highest) const;
 
@@ -54,7 +62,8 @@ class MachineState {
     bool relative_ = false;
     bool relative_e_ = false;
     double feed_ = 0;
-    double nozzle_ = 0;
+    int tool_ = -1;                // in use; -1: none was selected
+    std::vector<double> nozzles_;  // by tool
     double bed_ = 0;
     double fan_ = 0;  // 0 to 255
 };

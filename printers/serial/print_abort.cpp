@@ -81,7 +81,7 @@ void PrintLink::go_on_aborting(double now) {
         for (std::string& line :
              sender_->machine().leave_from(left_, settings_.park_x, settings_.park_y, settings_.highest))
             sender_->interject(std::move(line));
-        for (const char* line : {"M104 S0", "M140 S0", "M107", "M84"}) sender_->interject(line);
+        for (std::string& line : sender_->machine().switch_off()) sender_->interject(std::move(line));
         phase_ = Phase::switching_off;
         return;
     }

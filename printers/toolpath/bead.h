@@ -17,7 +17,8 @@ enum class Role : std::uint8_t {
     solid_infill,
     gap_fill,
     skirt,
-    support
+    support,
+    purge_tower
 };
 
 /// A path along which filament is extruded, mm.

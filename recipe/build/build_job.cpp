@@ -13,6 +13,8 @@
 #include "recipe/build/build_process.h"
 #include "recipe/build/fill_body.h"
 #include "recipe/identity.h"
+#include "recipe/pieces/cut_part.h"
+#include "recipe/pieces/section_bounds.h"
 #include "recipe/placement/part_placement.h"
 #include "recipe/structure/place_elements.h"
 
@@ -102,6 +104,29 @@ void turn(const Recipe& recipe, const OptimizeOptions& optimizing, BuiltJob& bui
     built.regions = turned_regions(recipe, built.designed.bounds, gradings, built.axes);
 }
 
+/// Replaces the part by the piece that the recipe names.
+void cut(const Recipe& recipe, const OptimizeOptions& optimizing, BuiltJob& built) {
+    if (recipe.cuts.empty()) return;
+    std::vector<CutPlane> planes;
+    for (const CutRecipe& cut : recipe.cuts) planes.push_back(plane_of(cut, built.axes));
+    const std::vector<PieceSides> pieces = pieces_of(built.outside, recipe.cuts, planes);
+    built.pieces = static_cast<int>(pieces.size());
+    if (recipe.plate.piece == 0) return;
+    if (recipe.plate.piece > built.pieces) {
+        throw InputError(
+            fmt::format("plate.piece / --piece: {}, but the cuts make {} of the part; accepted: 1 to {}",
+                        recipe.plate.piece, built.pieces, built.pieces));
+    }
+    const CutPiece piece(recipe.cuts, planes, pieces, static_cast<std::size_t>(recipe.plate.piece - 1),
+                         built.outside);
+    Job& job = built.designed;
+    job.part = piece.of(job.part);
+    if (built.before_cavities) built.before_cavities = piece.of(built.before_cavities);
+    built.outside = piece.of(built.outside);
+    job.bounds = section_bounds(*built.outside);
+    set_layers(recipe, optimizing, built);
+}
+
 /// Returns the spaces of a foam that stays fixed to the part or to the bed.
 FoamPlace foam_place(const FoamRecipe& foam, const Recipe& recipe, const Box& designed,
                      const BuiltJob& built) {
@@ -149,7 +174,9 @@ BuiltJob build_job(const Recipe& given, const OptimizeOptions& optimizing) {
         built.dowels = place_dowels(recipe, job);
         job.part = without_dowels(job.part, *built.dowels);
     }
+    cut(recipe, optimizing, built);
     job.name = recipe.part.name;
+    if (recipe.plate.piece > 0) job.name += fmt::format("_{}", recipe.plate.piece);
     job.identity = job_identity(given);
     if (built.foam && built.foam->modulus) {
         built.modulus = modulus_report(*built.foam->modulus, *built.body);
@@ -157,6 +184,19 @@ BuiltJob build_job(const Recipe& given, const OptimizeOptions& optimizing) {
     }
     built.job = make_processed(recipe, job, built.layers.plan);
     return built;
+}
+
+Recipe first_piece(const Recipe& recipe) {
+    Recipe first = recipe;
+    if (!recipe.cuts.empty() && recipe.plate.piece == 0) first.plate.piece = 1;
+    return first;
+}
+
+std::vector<Recipe> other_pieces(const Recipe& recipe, int pieces) {
+    if (recipe.cuts.empty() || recipe.plate.piece > 0) return {};
+    std::vector<Recipe> others(static_cast<std::size_t>(pieces - 1), recipe);
+    for (int i = 2; i <= pieces; ++i) others[static_cast<std::size_t>(i - 2)].plate.piece = i;
+    return others;
 }
 
 void drop_islands(const Recipe& recipe, BuiltJob& built, IslandSurveyOptions options) {

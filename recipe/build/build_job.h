@@ -46,6 +46,7 @@ struct BuiltJob {
     std::optional<DrainReport> drains;       ///< empty when none are asked for
     std::optional<DowelHoles> dowels;        ///< empty when none are asked for
     std::optional<HollowReport> cavities;    ///< empty when none are asked for
+    int pieces = 1;                          ///< that cuts make of the part
     FieldPtr before_cavities;                ///< the designed part before hollowing; null without cavities
     BuiltRegions regions;
     std::optional<IslandReport> islands;  ///< empty before drop_islands
@@ -54,7 +55,9 @@ struct BuiltJob {
 
 /// Builds the job of a recipe. Surveys all layers when the recipe asks for cavities (for space inside the
 /// part), drains (for closed cavities) or dowels (for places inside all layers). Optimises first when the
-/// recipe asks for it. Throws InputError when a file is unreadable, the part is empty or cannot be optimised.
+/// recipe asks for it. A part that is cut is built as the piece that plate.piece names, or whole where that
+/// is 0: see first_piece() and other_pieces(). Throws InputError when a file is unreadable, the part is empty
+/// or cannot be optimised.
 /// ```
 ///     const Recipe recipe = read_recipe("part.toml", MachineProfiles());
 ///     BuiltJob built = build_job(recipe);
@@ -65,6 +68,11 @@ struct BuiltJob {
 ///     const StreamReport report = stream_layers(built.job, *backend, options);
 /// ```
 BuiltJob build_job(const Recipe& recipe, const OptimizeOptions& optimizing = {});
+
+/// Returns the recipe of the first of the pieces that the recipe's cuts make, and those of the others, this
+/// many in all; the recipe itself, and none, where it has no cuts or names a piece.
+Recipe first_piece(const Recipe& recipe);
+std::vector<Recipe> other_pieces(const Recipe& recipe, int pieces);
 
 /// Removes disconnected pieces (islands) from the part after a survey of all layers. The row spacing is the
 /// recipe's, or else a third of the thinnest beam's radius (of half the thinnest wall), clamped to the range

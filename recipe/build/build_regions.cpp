@@ -88,6 +88,11 @@ bool changes_numbers(const BuiltRegion& region) {
     return region.make == RegionMake::foam || region.make == RegionMake::skin;
 }
 
+/// Returns true for regions that leave the part's solid as it is.
+bool keeps_solid(const BuiltRegion& region) {
+    return changes_numbers(region) || region.make == RegionMake::tool;
+}
+
 /// Returns true for regions that only control supports, which stand outside the part.
 bool rules_supports(const BuiltRegion& region) {
     return region.make == RegionMake::blocker || region.make == RegionMake::enforcer;
@@ -101,7 +106,7 @@ void warn_of_idle(const FieldPtr& body, bool filled, BuiltRegions& regions) {
         const Box box = intersect(body->bounds(), grown(region.field->bounds(), reach));
         if (!find_solid_point(acted_on, box)) {
             regions.warnings.push_back(region.name + " does not touch the part and changes nothing");
-        } else if (region.make == RegionMake::solid && !filled) {
+        } else if (region.make == RegionMake::solid && !filled && region.tool.empty()) {
             regions.warnings.push_back(region.name + " is solid where the part is solid and changes nothing");
         }
     }
@@ -120,7 +125,7 @@ FieldPtr joined(FieldPtr part, const BuiltRegion& region) {
 FieldPtr sequence(FieldPtr part, const FieldPtr& body, const BuiltRegions& regions) {
     bool beyond_body = false;
     for (const BuiltRegion& region : regions.list) {
-        if (changes_numbers(region) || rules_supports(region)) continue;
+        if (keeps_solid(region) || rules_supports(region)) continue;
         if (region.make == RegionMake::empty && beyond_body) {
             part = make_intersection({body, std::move(part)});
             beyond_body = false;
@@ -153,7 +158,7 @@ BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& grad
         ++number;
         if (which == WhichRegions::before_search && late.fields.contains(region.field)) continue;
         const FieldPtr field = fields.make(region);
-        built.list.push_back({region_name(number, region), region.make, region.blend, field});
+        built.list.push_back({region_name(number, region), region.make, region.blend, field, region.tool});
         for (const RegionNumber& given : numbers_of(region)) {
             gradings.override_number(given.key, {field, region.blend, *given.number});
         }
@@ -168,7 +173,7 @@ BuiltRegions turned_regions(const Recipe& recipe, const Box& part, Gradings& gra
     int number = 0;
     for (const RegionRecipe& region : recipe.regions) {
         const FieldPtr field = fields.make(region);
-        built.list.push_back({region_name(++number, region), region.make, region.blend, field});
+        built.list.push_back({region_name(++number, region), region.make, region.blend, field, region.tool});
     }
     return built;
 }

@@ -16,6 +16,7 @@ struct BuiltRegion {
     /// If `blend` is positive, its value is the distance to its surface or a bound of it; a formula's is
     /// divided by its greatest slope at the surface.
     FieldPtr field;
+    std::string tool{};  ///< name of the [[tool]] that makes what is in the region; empty: as around it
 };
 
 struct BuiltRegions {

@@ -1,6 +1,7 @@
 // Runs the surveys in their order.
 #include "recipe/build/finish_job.h"
 
+#include "recipe/build/assign_tools.h"
 #include "recipe/build/repair_job.h"
 
 namespace lamella {
@@ -23,6 +24,7 @@ SupportStructures finish_job(const Recipe& recipe, BuiltJob& built, const Finish
     around.supports = add_supports(
         recipe, built, {{options.threads, progress_of("supports"), options.cancel}, options.plans});
     around.shield = add_shield(recipe, built.job, {options.threads, options.cancel});
+    assign_tools(recipe, built);
     return around;
 }
 

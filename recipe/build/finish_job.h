@@ -23,8 +23,8 @@ struct SupportStructures {
     std::optional<ShieldSurvey> shield;
 };
 
-/// Drops islands, repairs the part, adds supports and a shield, in this order, each if the recipe asks for
-/// it. Throws InputError when the settings do not suit the part, Interrupted when cancelled.
+/// Drops islands, repairs the part, adds supports and a shield, and assigns tools, in this order, each if the
+/// recipe asks for it. Throws InputError when the settings do not suit the part, Interrupted when cancelled.
 SupportStructures finish_job(const Recipe& recipe, BuiltJob& built, const FinishOptions& options);
 
 }  // namespace lamella

@@ -48,6 +48,12 @@ void add_scripts(std::vector<Setting>& t) {
         {.fallback = "all off",
          .help = "End lines that replace the default, with {filament_used}, {z} and so on.",
          .is_lines = true});
+    add_gcode_row<&G::tool_script>(
+        t, "tool_script", "--printer-tool-script",
+        {.fallback = "T{tool}, wait for the heat",
+         .help = "Lines that change the tool and replace the default, with {tool}, {previous_tool}, "
+                 "{nozzle_temperature} and so on.",
+         .is_lines = true});
     add_gcode_row<&G::prime_line>(t, "prime_line", "--printer-prime-line",
                                   {.help = "Fill the nozzle with a line along the bed's front edge."});
 }

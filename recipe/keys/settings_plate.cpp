@@ -19,6 +19,11 @@ void add_plate_settings(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.plate.number; }>(
         "plate", "number", "--plate",
         {.limits = {1, 10000}, .fallback = "1", .help = "The plate to make, where the parts need several."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.plate.piece; }>(
+        "plate", "piece", "--piece",
+        {.limits = {0, 256},
+         .fallback = "0",
+         .help = "The piece to make of a part that [[cut]] divides, from 1; 0: all of them."}));
 }
 
 }  // namespace lamella

@@ -5,7 +5,8 @@
 namespace lamella {
 
 const std::vector<std::string>& choice_names(RegionMake) {
-    static const std::vector<std::string> list{"solid", "empty", "foam", "skin", "blocker", "enforcer"};
+    static const std::vector<std::string> list{"solid",   "empty",    "foam", "skin",
+                                               "blocker", "enforcer", "tool"};
     return list;
 }
 
@@ -98,9 +99,10 @@ void add_region_settings(std::vector<Setting>& t) {
     add.operator()<&RegionRecipe::field>(
         "field", {.fallback = "required", .help = "Name of the [[field]] whose inside is the region."});
     add.operator()<&RegionRecipe::make>(
-        "make", {.fallback = "required",
-                 .help = "Content of the body in the region; foam and skin change numbers. A blocker keeps "
-                         "supports away, an enforcer puts them under every overhang."});
+        "make",
+        {.fallback = "required",
+         .help = "Content of the body in the region; foam and skin change numbers, tool the extruder "
+                 "alone. A blocker keeps supports away, an enforcer puts them under every overhang."});
     add.operator()<&RegionRecipe::blend>(
         "blend", {.unit = "mm",
                   .limits = {0, 1000},
@@ -123,6 +125,9 @@ void add_region_settings(std::vector<Setting>& t) {
                                               "Young's modulus of the foam in the region.");
     number.operator()<&RegionRecipe::thickness>("thickness", "mm", {0, 1000}, "required by skin",
                                                 "Thickness of the skin in the region; 0 for none.");
+    add.operator()<&RegionRecipe::tool>("tool",
+                                        {.fallback = "required by tool; else as around the region",
+                                         .help = "Name of the [[tool]] that makes what is in the region."});
 }
 
 }  // namespace lamella

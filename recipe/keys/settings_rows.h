@@ -21,6 +21,7 @@ const std::vector<std::string>& choice_names(SkinSide);
 const std::vector<std::string>& choice_names(Reinforcement);
 const std::vector<std::string>& choice_names(SupportKind);
 const std::vector<std::string>& choice_names(RegionMake);
+const std::vector<std::string>& choice_names(CutJoint);
 const std::vector<std::string>& choice_names(OptimizeKind);
 const std::vector<std::string>& choice_names(OptimizeResult);
 const std::vector<std::string>& choice_names(OptimizeMethod);
@@ -68,10 +69,16 @@ void add_process_settings(std::vector<Setting>& table);
 void add_repair_settings(std::vector<Setting>& table);
 /// The rows of the [layers] section.
 void add_layers_settings(std::vector<Setting>& table);
+/// The rows of the [[cut]] section.
+void add_cut_settings(std::vector<Setting>& table);
 /// The rows of the [plate] section.
 void add_plate_settings(std::vector<Setting>& table);
-/// The rows of the [support] section.
+/// The rows of the [support] section, and those of them about tools.
 void add_support_settings(std::vector<Setting>& table);
+void add_support_tool_settings(std::vector<Setting>& table);
+/// The rows of the [[tool]] and [purge] sections.
+void add_tool_settings(std::vector<Setting>& table);
+void add_purge_settings(std::vector<Setting>& table);
 /// The rows of the [check] section.
 void add_check_settings(std::vector<Setting>& table);
 /// The rows of the [skin] and [[hole]] sections.

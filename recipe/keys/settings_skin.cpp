@@ -145,6 +145,11 @@ void add_drains(std::vector<Setting>& t) {
                                    .limits = {0.001, 100},
                                    .fallback = "a third of the skin's thickness, at most 16 layers",
                                    .help = "Row spacing of the survey for cavities."});
+    add_skin_row<&S::tool>(
+        t, "tool", "--skin-tool",
+        {.fallback = "that of the part",
+         .help =
+             "Name of the [[tool]] (extruder) that makes all within the skin's thickness of the surface."});
 }
 
 template <auto member>

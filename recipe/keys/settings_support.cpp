@@ -139,6 +139,7 @@ void add_support_settings(std::vector<Setting>& table) {
     add_needs(table);
     add_shape(table);
     add_printing(table);
+    add_support_tool_settings(table);
 }
 
 }  // namespace lamella

@@ -59,6 +59,13 @@ void add_placement(std::vector<Setting>& t) {
          .limits = {-360, 360},
          .fallback = "0, 0, 0",
          .help = "Rotation about x, then y, then z; all that stands on the part turns with it."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.at; }>(
+        "part", "at", "--at",
+        {.unit = "mm",
+         .limits = place_limits,
+         .shape = {2, 1, "one place [[x, y]]"},
+         .fallback = "0, 0",
+         .help = "Place of the part's middle on the plate, from the middle of the plate."}));
 }
 
 void add_part(std::vector<Setting>& t) {
@@ -121,6 +128,9 @@ void add_part(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.part.name; }>(
         "part", "name", "--name",
         {.fallback = "the input's name", .help = "Short name for file names and headers."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.part.tool; }>(
+        "part", "tool", "--tool",
+        {.fallback = "the first", .help = "Name of the [[tool]] (extruder) that makes the part."}));
 }
 
 template <auto member>
@@ -325,6 +335,9 @@ void add_foam(std::vector<Setting>& t) {
         {.fallback = "part",
          .help = "Whether the foam stays fixed to the part or to the bed when the part is "
                  "turned."});
+    add_foam_row<&F::tool>(
+        t, "tool", "--foam-tool",
+        {.fallback = "that of the part", .help = "Name of the [[tool]] (extruder) that makes the foam."});
     add_foam_row<&F::drop_islands>(
         t, "drop_islands", "--drop-islands",
         {.fallback = "false",
@@ -376,7 +389,10 @@ std::vector<Setting> make_table() {
     add_support_settings(table);
     add_shield_settings(table);
     add_check_settings(table);
+    add_cut_settings(table);
     add_plate_settings(table);
+    add_tool_settings(table);
+    add_purge_settings(table);
     add_output(table);
     add_printer_settings(table);
     for (Setting& setting : table) {
@@ -454,7 +470,12 @@ std::span<const Section> sections() {
         {"shield", "a wall around the print, removed later; without this section there is none"},
         {"check", "limits of the machine and severity of faults, for `check` and `slice --check`", nullptr,
          false},
+        {"cut", "a plane that cuts the part into pieces, which are printed side by side",
+         [](const Recipe& r) { return r.cuts.size(); }},
         {"plate", "copies of the part printed together"},
+        {"tool", "one of several tools (extruders) of a machine that prints filament, from T0 on",
+         [](const Recipe& r) { return r.printer.tools.size(); }},
+        {"purge", "the tower in which the nozzle is purged after a change of tools"},
         {"output", "outputs other than layers", nullptr, false},
         {"printer", "the machine: a profile, and changes to it"}};
     return list;

@@ -1,5 +1,5 @@
 // Homogenises samples one by one; a law's points are samples with other cell sizes.
-#include "recipe/build/foam_stiffness.h"
+#include "recipe/structure/foam_stiffness.h"
 
 #include <fmt/format.h>
 
