@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/base/convex_hull.h"
+
 namespace lamella {
 namespace {
 
@@ -27,26 +29,6 @@ constexpr std::array<std::array<double, 2>, 16> compass{{{1, 0},
                                                          {c3, -c1},
                                                          {c2, -c2},
                                                          {c1, -c3}}};
-
-/// Returns the convex hull, counter-clockwise, without points on its edges (Andrew's monotone chain).
-std::vector<dvec2> convex_hull(std::vector<dvec2> points) {
-    std::sort(points.begin(), points.end(),
-              [](dvec2 a, dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (points.size() < 3) return points;
-    std::vector<dvec2> hull;
-    const auto add = [&hull](dvec2 p, std::size_t kept) {
-        while (hull.size() > kept + 1 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) {
-            hull.pop_back();
-        }
-        hull.push_back(p);
-    };
-    for (const dvec2 p : points) add(p, 0);
-    const std::size_t lower = hull.size() - 1;
-    for (std::size_t k = points.size() - 1; k-- > 0;) add(points[k], lower);
-    hull.pop_back();
-    return hull;
-}
 
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
