@@ -123,7 +123,8 @@ std::vector<OrientationFigures> best_orientations(const SurfaceCover& cover, con
     });
     const auto by_score = [](const Scored& scored) { return scored.score; };
     std::ranges::stable_sort(all.begin() + static_cast<std::ptrdiff_t>(faces), all.end(), {}, by_score);
-    const std::size_t refined = std::min(all.size() - faces, 2 * wanted);
+    constexpr std::size_t most_refined = 24;
+    const std::size_t refined = std::min({all.size() - faces, 2 * wanted, most_refined});
     parallel_for(refined, [&](std::size_t i) {
         stop_if_cancelled(cancel);
         all[faces + i] = improved(cover, rules, score, all[faces + i]);

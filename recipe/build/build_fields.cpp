@@ -156,8 +156,8 @@ FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place
     throw InputError("this shape cannot be made from sizes");
 }
 
-FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,
-                    std::optional<MeshReport>& report) {
+SolidMesh read_closed_mesh(const std::string& path, LengthUnit unit, double scale, const Placement& place,
+                           std::optional<MeshReport>& report) {
     MeshReadOptions options;
     options.unit_mm = millimetres(unit);
     MeshFile file = read_mesh(path, options);
@@ -177,7 +177,12 @@ FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, cons
     found.oriented_manifold = solid.oriented_manifold;
     found.volume = enclosed_volume(solid.mesh);
     found.notes.insert(found.notes.end(), solid.notes.begin(), solid.notes.end());
-    return make_mesh_field(std::move(solid));
+    return solid;
+}
+
+FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,
+                    std::optional<MeshReport>& report) {
+    return make_mesh_field(read_closed_mesh(path, unit, scale, place, report));
 }
 
 double enclosed_volume(const TriangleMesh& mesh) {

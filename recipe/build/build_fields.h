@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh/mesh.h"
+#include "engine/mesh/mesh_repair.h"
 #include "recipe/build/build_gradings.h"
 
 namespace lamella {
@@ -31,6 +31,10 @@ struct Placement {
 
 /// Returns the axes rotated about x, then y, then z, by angles in degrees; right angles give whole numbers.
 glm::dmat3 exact_axes(dvec3 degrees);
+
+/// Reads a mesh file, places it and closes it. Throws InputError when it cannot be read or is empty.
+SolidMesh read_closed_mesh(const std::string& path, LengthUnit unit, double scale, const Placement& place,
+                           std::optional<MeshReport>& report);
 
 /// Reads a mesh file as a solid. Throws InputError when it cannot be read or is empty.
 FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,

@@ -2,16 +2,17 @@
 #include "recipe/placement/orient_part.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
-#include <span>
+#include <numeric>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
 #include "printers/registry.h"
 #include "recipe/build/build_body.h"
-#include "recipe/build/build_supports.h"
 #include "recipe/placement/part_placement.h"
+#include "recipe/placement/plan_orientations.h"
 
 namespace lamella {
 
@@ -45,41 +46,52 @@ OrientationScore score_of(OrientGoal goal) {
             return [](const OrientationFigures& f) { return f.overhang_area + f.bed_area; };
         case OrientGoal::area:
             return [](const OrientationFigures& f) { return f.largest_layer; };
+        case OrientGoal::strength:
+            // Whole percents of the load first; of what is equally strong, the least supports.
+            return [](const OrientationFigures& f) {
+                return std::round(100 * f.load_across) + f.support_volume / (1 + f.support_volume);
+            };
         case OrientGoal::supports:
             break;
     }
     return [](const OrientationFigures& f) { return f.support_volume; };
 }
 
-/// Plans the supports of the first orientations, and sorts these by the material.
-void plan_first(const Recipe& recipe, const OrientOptions& options, std::vector<Orientation>& best) {
-    const auto planned = std::span(best).first(std::min(options.plan, best.size()));
-    for (Orientation& orientation : planned)
-        orientation.planned = planned_supports(recipe, orientation.lay_on, options);
-    std::ranges::stable_sort(planned, {},
-                             [](const Orientation& orientation) { return *orientation.planned; });
+double area_of(const SurfaceCover& cover) {
+    return std::accumulate(cover.areas.begin(), cover.areas.end(), 0.0);
+}
+
+/// Returns the loads to bear: those of the options, or else the recipe's forces, by the weights of their
+/// cases.
+std::vector<dvec3> loads_of(const Recipe& recipe, const OrientOptions& options) {
+    std::vector<dvec3> loads = options.loads;
+    if (loads.empty()) {
+        for (const LoadRecipe& load : recipe.loads) {
+            if (load.force != dvec3(0)) loads.push_back(load.weight * load.force);
+        }
+    }
+    if (loads.empty() && options.goal == OrientGoal::strength)
+        throw InputError(
+            "--for strength: no load has a direction; accepted: --load X,Y,Z, or a recipe with a [[load]] "
+            "that "
+            "has a force");
+    return loads;
+}
+
+/// Keeps the first orientations that are far enough from all before them.
+std::vector<Orientation> differing(const std::vector<Orientation>& list, std::size_t count) {
+    std::vector<Orientation> kept;
+    for (const Orientation& orientation : list) {
+        const auto is_near = [&](const Orientation& other) {
+            return dot(other.figures.up, orientation.figures.up) > std::cos(apart * std::numbers::pi / 180);
+        };
+        if (std::ranges::none_of(kept, is_near)) kept.push_back(orientation);
+        if (kept.size() == count) break;
+    }
+    return kept;
 }
 
 }  // namespace
-
-double planned_supports(const Recipe& recipe, dvec3 lay_on, const OrientOptions& options) {
-    Recipe solid;
-    solid.part = recipe.part;
-    solid.part.lay_on = lay_on;
-    solid.part.turn = dvec3(0);
-    solid.fields = recipe.fields;
-    solid.gradings = recipe.gradings;
-    solid.layers.height = recipe.layers.height;
-    solid.printer = recipe.printer;
-    solid.support = recipe.support == SupportKind::none ? SupportKind::pillars : recipe.support;
-    BuiltJob built = build_job(solid, {.threads = options.threads, .cancel = options.cancel});
-    SupportOptions planning;
-    planning.plans.clear();
-    planning.threads = options.threads;
-    planning.cancel = options.cancel;
-    add_supports(solid, built, planning);
-    return support_volume(built.job);
-}
 
 OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
     const Recipe recipe = with_known_placement(given);
@@ -89,21 +101,34 @@ OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
     Gradings gradings(recipe);
     std::optional<MeshReport> mesh;
     const FieldPtr body = build_body(recipe, gradings, mesh, mirror);
-    const OrientationRules rules = rules_of(recipe.printer, recipe.layers.height);
+    OrientationRules rules = rules_of(recipe.printer, recipe.layers.height);
+    for (const dvec3& load : loads_of(recipe, options)) rules.loads.push_back(mirror * load);
     ThreadArena arena(options.threads);
     OrientReport report;
+    report.has_loads = !rules.loads.empty();
     arena.execute([&] {
         const SurfaceCover cover = cover_surface(*body, sites, options.cancel);
-        const auto placed = [&](const OrientationFigures& figures) {
-            return Orientation{figures, mirror * -figures.up};
+        const OrientationMeasure measure = [&](dvec3 up) {
+            return Orientation{orientation_figures(cover, up, rules), mirror * -up};
         };
         const glm::dmat3 turn = part_axes(recipe.part) * mirror;
-        report.now = placed(orientation_figures(cover, glm::transpose(turn) * dvec3(0, 0, 1), rules));
-        for (const OrientationFigures& figures :
-             best_orientations(cover, rules, score_of(options.goal), options.count, apart, options.cancel))
-            report.best.push_back(placed(figures));
+        report.now = measure(glm::transpose(turn) * dvec3(0, 0, 1));
+        std::size_t plans = 0;
+        if (options.goal == OrientGoal::supports)
+            plans = options.plan.value_or(affordable_plans(
+                {area_of(cover), recipe.layers.height, mesh ? mesh->triangles : 0,
+                 !mesh && (!recipe.part.field.empty() || recipe.part.shape == Shape::gyroid)}));
+        std::vector<Orientation> list;
+        for (const OrientationFigures& figures : best_orientations(
+                 cover, rules, score_of(options.goal), std::max(options.count, plans), apart, options.cancel))
+            list.push_back({figures, mirror * -figures.up});
+        if (plans > 0) {
+            const LaidPart part(recipe);
+            plan_orientations(part, plans, measure, options, list);
+            report.now.planned = part.support_volume(report.now.lay_on, options.threads, options.cancel);
+        }
+        report.best = differing(list, options.count);
     });
-    if (options.goal == OrientGoal::supports) plan_first(recipe, options, report.best);
     return report;
 }
 
