@@ -3,16 +3,15 @@
 
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "app/commands/commands.h"
 #include "app/commands/prepare_job.h"
 #include "app/commands/recipe_options.h"
+#include "app/console/picture_output.h"
 #include "app/console/text_output.h"
 #include "app/reports/modulus_paint.h"
 #include "engine/base/error.h"
-#include "engine/io/image_file.h"
 #include "recipe/build/build_process.h"
 #include "recipe/build/finish_job.h"
 #include "recipe/output/job_picture.h"
@@ -30,29 +29,6 @@ struct PreviewCommand {
     int size = 1024;
     bool quiet = false;
 };
-
-/// Writes to a temporary name first, so that the picture appears complete. The format follows the ending,
-/// which therefore stays last.
-void save(const Picture& image, const std::string& path) {
-    const std::filesystem::path final_path(path);
-    const std::filesystem::path unfinished =
-        final_path.parent_path() / (final_path.stem().string() + ".part" + final_path.extension().string());
-    if (!is_image_name(path)) {
-        throw InputError(
-            "--output: " + path +
-            " does not end in a known image format; accepted: a file ending in .png, .jpg, .tif, ...");
-    }
-    try {
-        write_image(unfinished.string(), {image.width, image.height, 3, image.rgb});
-    } catch (const FaultError&) {
-        std::error_code ignored;
-        std::filesystem::remove(unfinished, ignored);
-        throw;
-    }
-    std::error_code error;
-    std::filesystem::rename(unfinished, final_path, error);
-    if (error) throw FaultError(path + ": the finished file cannot be renamed: " + error.message());
-}
 
 void paint_modulus(const BuiltJob& built, PreviewCommand& options) {
     if (!built.modulus) {
@@ -74,7 +50,8 @@ void run(PreviewCommand& options) {
     options.picture.cut = options.cut == "none" ? '-' : options.cut.front();
     if (options.paint == "modulus") paint_modulus(built, options);
     const SupportStructures around = finish_job(recipe, built, {});
-    save(render_job(recipe, built, around.supports, options.picture), path);
+    check_is_picture("--output", path);
+    write_picture(path, render_job(recipe, built, around.supports, options.picture));
     if (options.quiet) return;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::fputs(

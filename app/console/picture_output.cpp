@@ -1,0 +1,34 @@
+// A picture is written to a temporary name first. Its ending decides the format and therefore stays last.
+#include "app/console/picture_output.h"
+
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/io/image_file.h"
+
+namespace lamella {
+
+void check_is_picture(const std::string& option, const std::string& path) {
+    if (is_image_name(path)) return;
+    throw InputError(
+        option + ": " + path +
+        " does not end in a known image format; accepted: a file ending in .png, .jpg, .tif, ...");
+}
+
+void write_picture(const std::string& path, const Picture& picture) {
+    const std::filesystem::path final_path(path);
+    const std::filesystem::path unfinished =
+        final_path.parent_path() / (final_path.stem().string() + ".part" + final_path.extension().string());
+    try {
+        write_image(unfinished.string(), {picture.width, picture.height, 3, picture.rgb});
+    } catch (const FaultError&) {
+        std::error_code ignored;
+        std::filesystem::remove(unfinished, ignored);
+        throw;
+    }
+    std::error_code error;
+    std::filesystem::rename(unfinished, final_path, error);
+    if (error) throw FaultError(path + ": the finished file cannot be renamed: " + error.message());
+}
+
+}  // namespace lamella
