@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <sstream>
 
 #include "engine/base/error.h"
@@ -79,9 +78,8 @@ std::string quoted_lines(std::string_view text) {
 
 /// Returns false for keys that repeat others, and for keys that belong to recipes alone.
 bool is_written(const Setting& setting) {
-    static const std::set<std::string> left_out{"printer.profile", "printer.pixel", "printer.dpi",
-                                                "support.kind"};
-    return !left_out.contains(setting.name());
+    return !belongs_in_recipe(setting) && setting.name() != "printer.pixel" &&
+           setting.name() != "printer.dpi";
 }
 
 std::string setting_line(const Setting& setting, const Recipe& recipe) {

@@ -343,7 +343,7 @@ class TomlRecipe {
             return refuse(line, setting->name(), "belongs in a recipe, not in a profile",
                           "based_on, above the sections");
         }
-        if (in_profile_ && setting->name() == "support.kind") {
+        if (in_profile_ && belongs_in_recipe(*setting)) {
             return refuse(line, setting->name(),
                           "belongs in a recipe: a profile only sets dimensions of supports",
                           "the other keys of [support]");

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -164,6 +165,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+bool belongs_in_recipe(const Setting& setting) {
+    constexpr std::array<std::string_view, 5> keys{"printer.profile", "support.kind", "support.tool",
+                                                   "support.interface_tool", "support.interface"};
+    return std::ranges::find(keys, setting.name()) != keys.end();
+}
 
 const Section* find_section(std::string_view name) {
     for (const Section& section : sections()) {

@@ -99,6 +99,9 @@ std::span<const Section> sections();
 /// The sections that a machine's profile may have.
 inline constexpr std::array<const char*, 3> profile_sections{"printer", "support", "check"};
 
+/// Whether a key of one of these sections belongs in recipes alone.
+bool belongs_in_recipe(const Setting& setting);
+
 /// Returns the section of that name; null when there is none.
 const Section* find_section(std::string_view name);
 

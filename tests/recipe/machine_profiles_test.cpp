@@ -166,8 +166,7 @@ TEST_CASE("a profile written down as TOML is read back the same") {
     const std::string text = "\n" + profile_as_toml(*profiles.find("elegoo-mars-3"));
     for (const Setting& setting : settings()) {
         if (std::ranges::find(profile_sections, setting.section) == profile_sections.end()) continue;
-        const bool other = setting.name() == "printer.profile" || setting.name() == "support.kind" ||
-                           setting.key == "pixel" || setting.key == "dpi" ||
+        const bool other = belongs_in_recipe(setting) || setting.key == "pixel" || setting.key == "dpi" ||
                            setting.type == ValueType::rows ||
                            setting.type == ValueType::lines;  // empty: only to be filled in
         INFO(setting.name());
