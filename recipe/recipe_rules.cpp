@@ -234,6 +234,9 @@ void RecipeDraft::check_cuts(const Recipe& recipe) {
         if (cut.normal == dvec3(0))
             refuse(0, fmt::format("{}: has no direction; accepted: a vector with a length",
                                   where("cut", "normal", i)));
+        if (cut.joints == 1)
+            refuse(0, fmt::format("{}: pieces can turn about a single pin; accepted: 2 or 3",
+                                  where("cut", "joints", i)));
         if (cut.joint != CutJoint::none) continue;
         for (const char* key : {"joints", "diameter", "depth", "clearance", "wall"}) {
             if (!entry("cut", key, i)) continue;

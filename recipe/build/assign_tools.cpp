@@ -9,6 +9,7 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "recipe/build/build_process.h"
+#include "recipe/pieces/cut_part.h"
 
 namespace lamella {
 
@@ -41,6 +42,26 @@ FieldPtr below_skin(const Recipe& recipe, const BuiltJob& built) {
     return make_difference(built.body, shell);
 }
 
+/// Returns what is within a distance of the designed part's surface, or of a plane that cut it.
+FieldPtr near_part(const Recipe& recipe, const BuiltJob& built, double distance) {
+    double beyond_body = 0;
+    if (recipe.skin && recipe.skin->side != SkinSide::inside)
+        beyond_body = built.skin ? built.skin->limits.hi : recipe.skin->thickness.number();
+    std::vector<FieldPtr> near;
+    try {
+        near.push_back(make_outer_shell(built.body, beyond_body + distance));
+    } catch (const InputError& error) {
+        throw InputError(std::string("support.interface_tool: ") + error.what() +
+                         "; accepted: a mesh, another shape, or one tool for all supports");
+    }
+    for (const CutRecipe& cut : recipe.cuts) {
+        const CutPlane plane = plane_of(cut, built.axes);
+        near.push_back(make_intersection({make_half_space(plane.normal, plane.offset + distance),
+                                          make_half_space(-plane.normal, distance - plane.offset)}));
+    }
+    return make_union(std::move(near));
+}
+
 bool uses_one_tool(const std::vector<ToolZone>& zones) {
     return std::ranges::all_of(zones, [](const ToolZone& zone) { return zone.tool == 0; });
 }
@@ -69,8 +90,8 @@ void assign_tools(const Recipe& recipe, BuiltJob& built) {
     const int interface = tool_number(recipe, recipe.support_tools.interface_tool, support);
     std::vector<ToolZone> support_zones{{support, nullptr}};
     if (interface != support) {
-        const FieldPtr near = make_outer_shell(built.outside, recipe.support_tools.interface);
-        support_zones.push_back({interface, placed(near)});
+        support_zones.push_back(
+            {interface, placed(near_part(recipe, built, recipe.support_tools.interface))});
     }
     if (!uses_one_tool(support_zones)) job.support_tools = std::move(support_zones);
 }

@@ -26,9 +26,9 @@ void add_cut_settings(std::vector<Setting>& t) {
                           "in both for rods (dowels)."});
     add.operator()<&CutRecipe::joints>(
         "joints",
-        {.limits = {2, 3},
-         .fallback = "2",
-         .help = "Number of pins or dowels between two pieces, placed so that they fit in one way."});
+        {.limits = {0, 3},
+         .fallback = "3 where there is room, or else 2",
+         .help = "Number of pins or dowels between two pieces, 2 or 3, such that they fit in one way."});
     const auto length = [&]<auto member>(const char* key, Limits limits, double fallback, const char* help) {
         add.operator()<member>(
             key, {.unit = "mm", .limits = limits, .fallback = format_value(fallback), .help = help});

@@ -18,7 +18,7 @@ struct CutRecipe {
     dvec3 at{0};        ///< a point of the plane
     dvec3 normal{0, 0, 1};
     CutJoint joint = CutJoint::none;
-    int joints = 2;           ///< 2 or 3, for each pair of pieces
+    int joints = 0;           ///< 2 or 3, for each pair of pieces; 0: three where there is room
     double diameter = 4;      ///< of pins and rods
     double depth = 6;         ///< of a hole in each piece
     double clearance = 0.15;  ///< between pin and hole, all around

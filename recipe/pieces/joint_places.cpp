@@ -47,14 +47,17 @@ std::vector<dvec3> joint_places(const FieldPtr& solid, const CutPlane& plane, co
         if (i == 0) middle = box_of(section);
         clear = clear ? intersect_polygons(*clear, room) : std::move(room);
     }
-    const std::vector<dvec2> places = clear->empty()
-                                          ? std::vector<dvec2>()
-                                          : dowel_places(*clear, middle.center(), cut.joints, cut.diameter);
-    if (places.size() < static_cast<std::size_t>(cut.joints)) {
+    std::vector<dvec2> places;
+    const int fewest = cut.joints > 0 ? cut.joints : 2;
+    for (int count = cut.joints > 0 ? cut.joints : 3; count >= fewest && !clear->empty(); --count) {
+        places = dowel_places(*clear, middle.center(), count, cut.diameter);
+        if (places.size() == static_cast<std::size_t>(count)) break;
+    }
+    if (places.size() < static_cast<std::size_t>(fewest)) {
         throw InputError(fmt::format(
             "{}: there is no room for {} joints of {} mm that reach {} mm into both pieces, with {} mm of "
             "material around them; accepted: a smaller cut.diameter, depth or wall, or joint = \"none\"",
-            cut.where, cut.joints, cut.diameter, cut.depth, cut.wall));
+            cut.where, fewest, cut.diameter, cut.depth, cut.wall));
     }
     std::vector<dvec3> middles;
     middles.reserve(places.size());

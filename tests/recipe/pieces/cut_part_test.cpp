@@ -61,8 +61,8 @@ std::vector<dvec3> points_in(const Box& where, int count) {
 }  // namespace
 
 TEST_CASE("two pieces have the volume of the whole, less the clearance", "[cut]") {
-    const auto pieces = pieces_of_recipe(recipe_of(
-        box + "[[cut]]\nat = [0, 0, -3]\njoint = \"pins\"\ndiameter = 5\ndepth = 7\nclearance = 0.2\n"));
+    const auto pieces = pieces_of_recipe(recipe_of(box + "[[cut]]\nat = [0, 0, -3]\njoint = \"pins\"\njoints "
+                                                         "= 2\ndiameter = 5\ndepth = 7\nclearance = 0.2\n"));
     REQUIRE(pieces.size() == 2);
     CHECK(pieces[0].pieces == 2);
     CHECK(pieces[0].job.name == "box_1");
@@ -127,7 +127,8 @@ TEST_CASE("a plane that reaches a part of the pieces joins those alone", "[cut]"
         "formula = \"max(min(x - 20, z - 20), max(max(-x, x - 60), max(max(-y, y - 20), max(-z, z - "
         "60))))\"\n"
         "[layers]\nheight = 0.2\n[printer]\nprofile = \"marlin\"\n"
-        "[[cut]]\nat = [30, 0, 0]\nnormal = [1, 0, 0]\n[[cut]]\nat = [0, 0, 40]\njoint = \"pins\"\n");
+        "[[cut]]\nat = [30, 0, 0]\nnormal = [1, 0, 0]\n[[cut]]\nat = [0, 0, 40]\njoint = \"pins\"\njoints = "
+        "2\n");
     const auto pieces = pieces_of_recipe(recipe);
     REQUIRE(pieces.size() == 3);
     const double pins = 2 * pi * 2 * 2 * 6, holes = 2 * pi * 2.15 * 2.15 * 6.15;
@@ -157,11 +158,12 @@ TEST_CASE("dowels have a hole on both sides, in material of their own", "[cut]")
     const auto pieces = pieces_of_recipe(recipe_of(
         "[part]\nshape = \"box\"\nsize = [40, 40, 40]\n[foam]\ncell = 8\nbeam = 0.6\n[skin]\nthickness = 1\n"
         "[layers]\nheight = 0.2\n[printer]\nprofile = \"marlin\"\n"
-        "[[cut]]\njoint = \"dowels\"\nface = 0.8\nwall = 2\n"));
+        "[[cut]]\njoint = \"dowels\"\njoints = 2\nface = 0.8\nwall = 2\n"));
     REQUIRE(pieces.size() == 2);
     const CutPlane plane{{0, 0, 1}, 0};
     CutRecipe cut;
     cut.wall = 2;
+    cut.joints = 2;
     const auto places =
         joint_places(build_job(recipe_of("[part]\nshape = \"box\"\nsize = [40, 40, 40]\n[layers]\nheight = "
                                          "0.2\n[printer]\nprofile = \"marlin\"\n"))
@@ -198,6 +200,8 @@ TEST_CASE("cuts say what is wrong with them", "[cut]") {
                       Catch::Contains("cut.toml:8") && Catch::Contains("does not divide the part"));
     CHECK_THROWS_WITH(recipe_of(box + "[[cut]]\ndiameter = 3\n"),
                       Catch::Contains("cut.toml:9") && Catch::Contains("no effect without a joint"));
+    CHECK_THROWS_WITH(recipe_of(box + "[[cut]]\njoint = \"pins\"\njoints = 1\n"),
+                      Catch::Contains("cut.toml:10") && Catch::Contains("2 or 3"));
     CHECK_THROWS_WITH(recipe_of(box + "[[cut]]\nnormal = [0, 0, 0]\n"), Catch::Contains("no direction"));
     CHECK_THROWS_WITH(recipe_of(box + "[plate]\npiece = 1\n"), Catch::Contains("nothing cuts the part"));
 }
