@@ -279,10 +279,11 @@ struct LayersRecipe {
 /// Copies of the part on one plate.
 struct PlateRecipe {
     int copies = 1;
-    double gap = 5;     ///< distance between neighbours, mm
-    bool turn = false;  ///< whether parts may be turned by right angles
-    int number = 1;     ///< the plate to make, where one is not enough
-    int piece = 0;      ///< the one to make of a part that is cut, from 1; 0: all
+    double gap = 5;           ///< distance between neighbours, mm
+    bool turn = false;        ///< whether parts may be turned by right angles
+    int number = 1;           ///< the plate to make, where one is not enough
+    bool one_by_one = false;  ///< whether each part is printed from the bed up before the next
+    int piece = 0;            ///< the one to make of a part that is cut, from 1; 0: all
 };
 
 /// Outputs other than layers.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -29,14 +30,17 @@ struct CheckCommand : JobOptions {
 Recipe recipe_of(const CheckCommand& options) {
     Recipe recipe = options.recipe.read();
     recipe.plate.copies = 1;
+    recipe.plate.one_by_one = false;  // layers are checked, in whatever order they are printed
     return recipe;
 }
+
+int parts_of(const Job& job) { return std::max(1, static_cast<int>(job.objects.size())); }
 
 CheckOutcome check_layers(const CheckCommand& options, const Recipe& recipe, const PreparedJob& prepared,
                           Ranks* ranks) {
     const Job& job = prepared.built.job;
     OutputChecks checking;
-    auto check = checking.check_of(recipe.printer, recipe.part.name, job, 1);
+    auto check = checking.check_of(recipe.printer, recipe.part.name, job, parts_of(job));
     ProgressDisplay display(options.quiet, "check: ");
     StreamOptions stream = prepared.stream;
     stream.on_progress = [&](const Progress& progress) { display.show(progress); };
@@ -81,9 +85,10 @@ void run_worker(const CheckCommand& given, Ranks& ranks) {
     const Recipe recipe = recipe_of(options);
     const PreparedJob prepared = prepare_job(options, recipe, cancel);
     OutputChecks checking;
-    render_blocks(ranks, prepared.built.job,
-                  checking.check_of(recipe.printer, recipe.part.name, prepared.built.job, 1),
-                  prepared.stream);
+    render_blocks(
+        ranks, prepared.built.job,
+        checking.check_of(recipe.printer, recipe.part.name, prepared.built.job, parts_of(prepared.built.job)),
+        prepared.stream);
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ std::unique_ptr<Backend> with_checks(std::unique_ptr<Backend> to, OutputChecks& 
                                      const SliceOptions& options, const Recipe& recipe,
                                      const std::vector<Output>& outputs, const Job& job) {
     if (!options.check) return to;
-    const int parts = recipe.plate.copies + static_cast<int>(options.beside.size());
+    const int parts = std::max(1, static_cast<int>(job.objects.size()));
     return checking.beside(std::move(to), outputs, recipe.part.name, job, parts);
 }
 

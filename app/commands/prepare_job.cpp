@@ -181,7 +181,8 @@ PreparedJob prepare_job(const JobOptions& options, const Recipe& given, const Ca
                    stderr);
     // Surveys take time: report mistakes before them.
     check_layer_heights(recipe.printer, built.job.layers.raised(lift_layers(recipe)));
-    parse_layers(options.layers, built.job.layers.count() + lift_layers(recipe).count());
+    if (!recipe.plate.one_by_one)
+        parse_layers(options.layers, built.job.layers.count() + lift_layers(recipe).count());
     const SupportStructures around = finish_with_progress(recipe, built, options, cancel);
     add_picture(recipe, built, around.supports, options.threads);
     fill_plate(given, built, others, options, cancel);

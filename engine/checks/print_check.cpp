@@ -156,7 +156,8 @@ PrintCheck::PrintCheck(const Job& job, const PrintCheckOptions& options) {
 }
 PrintCheck::~PrintCheck() = default;
 
-int PrintCheck::open(const Job& /*job*/, LayerRange range, bool /*resume*/) {
+int PrintCheck::open(const Job& job, LayerRange range, bool /*resume*/) {
+    check_range(job, range);
     if (range.first != 0 || range.last != state_->grid.layers.count())
         throw InputError("a check looks at all layers of a job; a range of them cannot be checked");
     return 0;

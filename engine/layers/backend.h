@@ -35,8 +35,12 @@ struct LayerRange {
     int count() const { return last - first; }
 };
 
-/// Throws InputError unless `range` is a valid range of the job's layers, with at least one.
-void check_range(const Job& job, const LayerRange& range);
+/// Whether a pass takes jobs whose parts are printed one by one, or makes layers of the whole plate.
+enum class TakesStacks : bool { no, yes };
+
+/// Throws InputError unless `range` is a valid range of the job's layers, with at least one, and for stacks
+/// of layers where these are not taken.
+void check_range(const Job& job, const LayerRange& range, TakesStacks takes = TakesStacks::no);
 
 /// A pass over a job's layers. `render` is called for several layers at once; the rest comes from one thread,
 /// in order: `write` for each layer by ascending index, then `finish`.

@@ -11,20 +11,27 @@ Job in_equal_layers(const Job& job) {
 
 Layer::Layer(const Job& job, int index, const CancelToken* cancel)
     : job_(&job),
+      solid_(job.part.get()),
+      supports_solid_(job.supports.get()),
       index_(index),
       cancel_(cancel),
       z_(job.plane(index)),
-      thickness_(job.layers.height(index)) {}
+      thickness_(job.layers.height(index)) {
+    if (!job.one_by_one()) return;
+    const JobObject& object = job.objects.at(static_cast<std::size_t>(job.layers.stack_of(index)));
+    solid_ = object.part.get();
+    supports_solid_ = object.supports.get();
+}
 
-const SliceField& Layer::part_at(double share) const { return context_.slice(*job_->part, height_of(share)); }
+const SliceField& Layer::part_at(double share) const { return context_.slice(*solid_, height_of(share)); }
 
 const SliceField* Layer::supports_at(double share) const {
-    return job_->supports ? &context_.slice(*job_->supports, height_of(share)) : nullptr;
+    return supports_solid_ != nullptr ? &context_.slice(*supports_solid_, height_of(share)) : nullptr;
 }
 
 void Layer::cache_lines(const RowBand& wanted) const {
     part_lines_.emplace_back(wanted);
-    if (job_->supports) support_lines_.emplace_back(wanted);
+    if (supports_solid_ != nullptr) support_lines_.emplace_back(wanted);
 }
 
 std::span<LineCache> Layer::lines_to_cache(const SliceField& slice) const {

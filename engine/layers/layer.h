@@ -48,6 +48,8 @@ struct Job {
     std::string identity;  ///< hash of recipe and inputs; jobs of equal identity produce the same bytes
 
     double z0() const { return bounds.lo.z; }
+    /// Whether the parts are printed one by one: each of `objects` has a stack of layers of its own.
+    bool one_by_one() const { return layers.stacks() > 1; }
     /// Height of the cutting plane of layer i, in part coordinates, mm.
     double plane(int i) const { return z0() + layers.middle(i); }
 };
@@ -64,6 +66,8 @@ class Layer {
     Layer(const Job& job, int index, const CancelToken* cancel = nullptr);
 
     int index() const { return index_; }
+    /// Returns the number of layers below this one that belong to the same stack (LayerPlan).
+    int level() const { return index_ - job_->layers.first_of_stack(job_->layers.stack_of(index_)); }
     double z() const { return z_; }                  ///< cutting plane in part coordinates, mm
     double thickness() const { return thickness_; }  ///< mm
     const CancelToken* cancel() const { return cancel_; }
@@ -101,6 +105,8 @@ class Layer {
     double height_of(double share) const { return z_ + (share - middle) * thickness_; }
 
     const Job* job_;
+    const Field* solid_;           // of the part
+    const Field* supports_solid_;  // null for none
     int index_;
     const CancelToken* cancel_;
     double z_;

@@ -22,6 +22,36 @@ LayerPlan::LayerPlan(const std::vector<EqualLayers>& runs) {
     }
 }
 
+LayerPlan LayerPlan::stacked(const std::vector<LayerPlan>& plans) {
+    LayerPlan all;
+    for (const LayerPlan& plan : plans) {
+        if (all.count_ > 0) all.stack_ends_.push_back(all.count_);
+        all.least_ = all.count_ == 0 ? plan.least_ : std::min(all.least_, plan.least_);
+        all.greatest_ = std::max(all.greatest_, plan.greatest_);
+        for (Run run : plan.runs_) {
+            run.first += all.count_;
+            all.runs_.push_back(run);
+        }
+        all.count_ += plan.count_;
+    }
+    return all;
+}
+
+double LayerPlan::total() const {
+    double highest = count_ == 0 ? 0 : top(count_ - 1);
+    for (const int end : stack_ends_) highest = std::max(highest, top(end - 1));
+    return highest;
+}
+
+int LayerPlan::stack_of(int layer) const {
+    return static_cast<int>(std::ranges::upper_bound(stack_ends_, layer) - stack_ends_.begin());
+}
+
+int LayerPlan::first_of_stack(int stack) const {
+    if (stack <= 0) return 0;
+    return stack >= stacks() ? count_ : stack_ends_[static_cast<std::size_t>(stack - 1)];
+}
+
 const LayerPlan::Run& LayerPlan::run_of(int layer) const {
     if (runs_.size() == 1) return runs_.front();
     const auto after = std::ranges::upper_bound(runs_, layer, {}, &Run::first);
@@ -35,7 +65,8 @@ double LayerPlan::height(int first, int last) const {
 
 int LayerPlan::layer_at(double height) const {
     if (count_ == 0) return 0;
-    auto after = std::ranges::upper_bound(runs_, height, {}, &Run::bottom);
+    const auto stack_end = std::ranges::lower_bound(runs_, first_of_stack(1), {}, &Run::first);
+    auto after = std::ranges::upper_bound(runs_.begin(), stack_end, height, {}, &Run::bottom);
     if (after == runs_.begin()) ++after;
     const Run& run = *std::prev(after);
     const int end = after == runs_.end() ? count_ : after->first;

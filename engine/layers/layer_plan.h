@@ -17,6 +17,9 @@ struct EqualLayers {
 /// The layers of a job, from the bed upward: runs of equal layers, each on the one before. All heights are in
 /// mm over the bed. Immutable; memory grows with the number of runs, not of layers. Numbers of layers are not
 /// checked, unless a function says so.
+///
+/// A plan may hold several stacks of layers, each from the bed upward, one after the other: the parts of a
+/// plate that are printed one by one. Layers and runs are then counted through all of them.
 class LayerPlan {
   public:
     /// No layers.
@@ -25,6 +28,8 @@ class LayerPlan {
     LayerPlan(int count, double height) : LayerPlan({EqualLayers{count, height}}) {}
     /// Neighbouring runs of the same height become one; runs without layers vanish.
     explicit LayerPlan(const std::vector<EqualLayers>& runs);
+    /// Returns the stacks of several plans, each of one stack with layers.
+    static LayerPlan stacked(const std::vector<LayerPlan>& plans);
 
     int count() const { return count_; }
     /// Whether all layers have the same height.
@@ -33,13 +38,19 @@ class LayerPlan {
     double bottom(int layer) const { return at(layer, 0); }
     double middle(int layer) const { return at(layer, 0.5); }
     double top(int layer) const { return at(layer, 1); }
-    /// Returns the height of all layers together.
-    double total() const { return count_ == 0 ? 0 : top(count_ - 1); }
+    /// Returns the height of all layers together; that of the highest stack.
+    double total() const;
+    /// Returns the number of stacks, the stack of a layer, and the stack's first layer; layers of the next
+    /// one begin where its own end, and first_of_stack(stacks()) is the number of layers.
+    int stacks() const { return static_cast<int>(stack_ends_.size()) + 1; }
+    int stack_of(int layer) const;
+    int first_of_stack(int stack) const;
     /// Returns the height of the layers [first, last) together.
     double height(int first, int last) const;
     double least_height() const { return least_; }
     double greatest_height() const { return greatest_; }
-    /// Returns the layer that holds a height; the lowest or highest one for heights beyond.
+    /// Returns the layer that holds a height; the lowest or highest one for heights beyond. Of several
+    /// stacks, a layer of the first.
     int layer_at(double height) const;
 
     /// Returns the runs, lowest first.
@@ -56,7 +67,9 @@ class LayerPlan {
     /// Returns a text such as "0.05 mm" or "0.1 to 0.3 mm".
     std::string heights_text() const;
 
-    friend bool operator==(const LayerPlan& a, const LayerPlan& b) { return a.runs() == b.runs(); }
+    friend bool operator==(const LayerPlan& a, const LayerPlan& b) {
+        return a.runs() == b.runs() && a.stack_ends_ == b.stack_ends_;
+    }
 
   private:
     struct Run {
@@ -71,6 +84,7 @@ class LayerPlan {
     }
 
     std::vector<Run> runs_;
+    std::vector<int> stack_ends_;  // of all stacks but the last
     int count_ = 0;
     double least_ = 0, greatest_ = 0;
 };

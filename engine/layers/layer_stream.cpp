@@ -140,7 +140,7 @@ class LayerStream {
 }  // namespace
 
 StreamReport stream_layers(const Job& job, Backend& backend, const StreamOptions& options) {
-    check_range(job, options.range);
+    check_range(job, options.range, TakesStacks::yes);
     const int threads = thread_count(options.threads);
     const int start = backend.open(job, options.range, options.resume);
     LayerStream stream(job, backend, {start, options.range.last},

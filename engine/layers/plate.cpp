@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "engine/base/error.h"
@@ -79,7 +80,7 @@ struct Standing {
 /// Puts parts on one plate, whose bed is that of `first`.
 class PlateJob {
   public:
-    explicit PlateJob(const Job& first) : plate_(first), bed_(first.z0()) {
+    PlateJob(const Job& first, bool one_by_one) : plate_(first), bed_(first.z0()), one_by_one_(one_by_one) {
         plate_.part = plate_.supports = nullptr;
         plate_.part_tools.clear();
         plate_.support_tools.clear();
@@ -90,7 +91,11 @@ class PlateJob {
 
     void add(const Standing& standing) {
         const Job& job = standing.item->job;
-        join_layers(job);
+        if (one_by_one_) {
+            stacks_.push_back(job.layers);
+        } else {
+            join_layers(job);
+        }
         const dvec3 by(standing.by, bed_ - job.z0());
         const auto placed = [&](const FieldPtr& field) {
             return moved(make_quarter_turn(field, standing.quarters), by);
@@ -124,12 +129,28 @@ class PlateJob {
         for (std::vector<ToolZone>* zones : {&plate_.part_tools, &plate_.support_tools}) {
             if (!zones->empty()) zones->insert(zones->begin(), ToolZone{});
         }
+        if (one_by_one_) stack_up();
         plate_.part = make_union(std::move(parts_));
         if (!supports_.empty()) plate_.supports = make_union(std::move(supports_));
         return std::move(plate_);
     }
 
   private:
+    /// Gives each part a stack of layers, the lowest first: the print head has to pass those that are done.
+    void stack_up() {
+        std::vector<std::size_t> order(stacks_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return stacks_[i].total(); });
+        std::vector<LayerPlan> stacks;
+        std::vector<JobObject> objects;
+        for (const std::size_t i : order) {
+            stacks.push_back(stacks_[i]);
+            objects.push_back(plate_.objects[i]);
+        }
+        plate_.layers = LayerPlan::stacked(stacks);
+        plate_.objects = std::move(objects);
+        plate_.identity += "one by one";
+    }
     void join_layers(const Job& job) {
         const bool is_higher = job.layers.count() > plate_.layers.count();
         if (!(is_higher ? job : plate_).layers.begins_like((is_higher ? plate_ : job).layers)) {
@@ -150,12 +171,14 @@ class PlateJob {
 
     Job plate_;
     double bed_;
+    bool one_by_one_;
+    std::vector<LayerPlan> stacks_;  // of the parts, where they are printed one by one
     std::vector<FieldPtr> parts_, supports_;
     std::vector<std::pair<const PlateItem*, int>> counts_;
 };
 
-Job plate_in_rows(std::span<const PlateItem> items, const Rows& rows) {
-    PlateJob plate(items.front().job);
+Job plate_in_rows(std::span<const PlateItem> items, const Rows& rows, bool one_by_one) {
+    PlateJob plate(items.front().job, one_by_one);
     const dvec2 origin = items.front().job.bounds.rect().lo;
     std::size_t next = 0;
     for (const PlateItem& item : items) {
@@ -223,7 +246,8 @@ std::vector<Job> nested_plates(std::span<const PlateItem> items, const PlateOpti
     std::vector<PlateJob> plates;
     const dvec2 origin = items.front().job.bounds.rect().lo;
     for (const NestPlace& place : places) {
-        while (static_cast<int>(plates.size()) <= place.plate) plates.emplace_back(items.front().job);
+        while (static_cast<int>(plates.size()) <= place.plate)
+            plates.emplace_back(items.front().job, options.one_by_one);
         const PlateOutline& outline = outlines[place.shape];
         const auto quarters = static_cast<int>(place.turn);
         const dvec2 size(static_cast<double>(outline.columns.lines()),
@@ -252,7 +276,7 @@ std::vector<Job> arrange_plates(std::span<const PlateItem> items, const PlateOpt
     const Rows rows = best_rows(sizes, options.gap, options.machine);
     constexpr double slack = 1 + 1e-9;
     if (rows.size.x <= options.machine.x * slack && rows.size.y <= options.machine.y * slack)
-        return {plate_in_rows(items, rows)};
+        return {plate_in_rows(items, rows, options.one_by_one)};
     return nested_plates(items, options);
 }
 

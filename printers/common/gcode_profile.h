@@ -42,6 +42,8 @@ struct GcodeProfile {
     double junction_deviation = 0.013;  ///< of corners; for classic jerk j: 0.4 j^2 / acceleration
     int planner_blocks = 16;            ///< moves in the machine's look-ahead buffer
     double lines_per_second = 0;        ///< highest rate of lines that the machine can take; 0: unlimited
+    double gantry_height = 25;          ///< room for parts below the gantry while the nozzle is on the bed
+    double head_radius = 35;            ///< reach of the print head around the nozzle below that height
     bool label_objects = true;  ///< say which part of a plate each line belongs to, for cancelling one
     bool thumbnails = false;    ///< embed pictures of the part for hosts; they must be rendered first
     bool arcs = false;          ///< emit G2 and G3 where an arc fits within the tolerance

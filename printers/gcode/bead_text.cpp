@@ -28,7 +28,7 @@ LaidMoves laid(const ToolBeads& beads, const Layer& layer, const BeadTextSetting
     text.when = beads.when;
     text.first = beads.paths.beads.front().points.front() + settings.shift;
     GcodeMoves planned(settings.profile, text.first, layer.top());
-    text.trail = add_beads(beads.paths, settings.profile, layer.thickness(), layer.index() == 0,
+    text.trail = add_beads(beads.paths, settings.profile, layer.thickness(), layer.level() == 0,
                            settings.shift, planned, layer.cancel());
     text.last = planned.position();
     made.moves = std::move(planned.moves());

@@ -15,14 +15,17 @@
 #include "printers/archive/json_number.h"
 #include "printers/gcode/bead_text.h"
 #include "printers/gcode/gcode_flavour.h"
+#include "printers/gcode/gcode_heat.h"
 #include "printers/gcode/gcode_roles.h"
 #include "printers/gcode/gcode_script.h"
 #include "printers/gcode/gcode_settings.h"
 #include "printers/gcode/gcode_text.h"
 #include "printers/gcode/gcode_thumbnail.h"
+#include "printers/gcode/gcode_totals.h"
 #include "printers/gcode/gcode_travel.h"
 #include "printers/gcode/laser_gcode.h"
 #include "printers/gcode/layer_beads.h"
+#include "printers/gcode/one_by_one.h"
 #include "printers/toolpath/purge_tower.h"
 #include "printers/toolpath/skirt.h"
 
@@ -32,6 +35,7 @@ namespace {
 constexpr double prime_strip = 6;     // mm along the bed's edges that are kept clear of the part
 constexpr double prime_height = 0.3;  // mm
 constexpr double prime_length = 60;   // mm
+constexpr double over_parts = 1;      // mm between the nozzle and parts that it passes
 
 /// Returns how far brim and skirt reach beyond the part, mm.
 double reach_beside(const PrinterProfile& profile, double layer_height) {
@@ -58,12 +62,13 @@ class Gcode : public Backend {
     Gcode& operator=(const Gcode&) = delete;
 
     int open(const Job& job, LayerRange range, bool resume) override {
-        check_range(job, range);
+        check_range(job, range, TakesStacks::yes);
+        check_gantry(job, profile_);
         for (const EqualLayers& layers : job.layers.runs()) check_filament_profile(profile_, layers.height);
         beads_.emplace(job, profile_);
         tools_ = tools_of(job);
         tool_ = tools_.front();
-        filament_used_.assign(static_cast<std::size_t>(tools_.back()) + 1, 0);
+        totals_.filament.assign(static_cast<std::size_t>(tools_.back()) + 1, 0);
         supported_ = job.supports != nullptr;
         if (supported_) check_support_speed(profile_.support);
         check_fit(job);
@@ -87,7 +92,7 @@ class Gcode : public Backend {
         auto product = std::make_unique<GcodeProduct>();
         const LayerPaths paths = beads_->plan(layer, labels_);
         product->islands_left_out = paths.islands_left_out;
-        product->texts = bead_texts(paths, layer, {profile_, labels_, shift_, fan(layer.index())});
+        product->texts = bead_texts(paths, layer, {profile_, labels_, shift_, fan(layer.level())});
         if (!product->texts.empty()) {  // else the sections are too small for a bead
             product->area = paths.part_area;
             product->support_area = paths.support_area;
@@ -105,10 +110,9 @@ class Gcode : public Backend {
         text.line(";Z:" + format_number(layer.top(), 3));
         text.line(";HEIGHT:" + format_number(layer.thickness(), 3));
         text.line(layer_progress(gcode_.flavour, index, layers_.count()));
-        text.line(fan_line(gcode_.flavour, fan(index)));
+        text.line(fan_line(gcode_.flavour, fan(layer.level())));
         if (index > range_.first) change_heat(index, text);
         text.lines(expand_script(layer_script(gcode_), values(index)));
-        double z = index > range_.first ? layer.bottom() : gcode_.prime_line ? prime_height : 0;
         std::string beads = text.text();
         int tool = ToolBeads::any;  // of the last text
         bool is_changed = false;
@@ -117,30 +121,30 @@ class Gcode : public Backend {
             tool = next.tool;
             if (next.when != LaidWhen::always && is_changed != (next.when == LaidWhen::tool_changed))
                 continue;
-            beads += way_to(next, layer, z);
+            beads += way_to(next, layer);
             beads += next.text;
-            z = layer.top();
             count(next);
         }
-        if (z != layer.top()) {
+        // Where the next part begins with empty layers, the nozzle waits above those that are done.
+        if (z_ < layer.top() || (z_ > layer.top() && index == range_.first)) {
             GcodeText rise(profile_);
-            GcodeMoves moves(profile_, position_, z);
+            GcodeMoves moves(profile_, position_, z_);
             moves.lift(layer.top());
             append(moves, rise);
             beads += rise.text();
             trail_.clear();  // the nozzle has left the trail
         }
-        islands_left_out_ += product.islands_left_out;
+        totals_.islands_left_out += product.islands_left_out;
         beads_->forget_below(index);
         output_->commit(beads, index + 1, state());
     }
 
     void finish() override {
         GcodeText text(profile_);
-        const double top = layers_.bottom(range_.last);
-        const double parked = std::min(top + 10, std::max(filament_.bed_z, top));
+        const double highest = std::max(z_, highest_done(range_.last));
+        const double parked = std::min(highest + 10, std::max(filament_.bed_z, highest));
         text.line(";TYPE:Custom");
-        GcodeMoves moves(profile_, position_, top);
+        GcodeMoves moves(profile_, position_, z_);
         if (moves.retracts()) moves.retract(trail_);
         moves.lift(parked);
         moves.travel({0, filament_.bed_y});
@@ -150,18 +154,21 @@ class Gcode : public Backend {
         }
         text.lines(expand_script(end_script(gcode_), values(range_.last - 1)));
         text.line(end_progress(gcode_.flavour, range_.last));
-        write_facts(text);
+        text.lines(facts_text(totals_, profile_, rate_, supported_, range_, layers_.greatest_height()));
         output_->end(text.text());
     }
 
   private:
     /// Returns the lines from the last bead to the first of these, with a change of tools where they need
     /// one.
-    std::string way_to(const BeadText& next, const Layer& layer, double z) {
+    std::string way_to(const BeadText& next, const Layer& layer) {
         GcodeText text(profile_);
-        GcodeMoves moves(profile_, position_, z);
+        GcodeMoves moves(profile_, position_, z_);
         if (moves.retracts()) moves.retract(trail_);
-        moves.lift(travel_height(profile_, layer.top(), glm::distance(position_, next.first)));
+        const double way = travel_height(profile_, layer.top(), glm::distance(position_, next.first));
+        // The way to the next part leads over those that are done.
+        const bool is_over_parts = layer.index() > range_.first && z_ > layer.top();
+        moves.lift(is_over_parts ? std::max(way, std::min(z_ + over_parts, filament_.bed_z)) : way);
         moves.travel(next.first);
         const auto go_on = [&](GcodeMoves& down) {
             down.lift(layer.top());
@@ -184,38 +191,36 @@ class Gcode : public Backend {
         values.previous_tool = std::exchange(tool_, tool);
         values.tool = tool;
         values.nozzle_temperature = nozzle_temperature(layer);
-        if (const double standby = tool_profile(values.previous_tool).standby_temperature; standby > 0)
+        if (const double standby = tool_profile(profile_, values.previous_tool).standby_temperature;
+            standby > 0)
             text.line(heat_line(gcode_.flavour, values.previous_tool, standby));
         text.lines(expand_script(tool_script(gcode_), values));
     }
 
     void count(const BeadText& laid) {
         add(laid.seconds);
-        filament_used_[static_cast<std::size_t>(tool_)] += laid.filament;
-        support_filament_ += laid.support_filament;
-        slowed_ += laid.slowed;
+        totals_.filament[static_cast<std::size_t>(tool_)] += laid.filament;
+        totals_.support_filament += laid.support_filament;
+        totals_.slowed += laid.slowed;
         position_ = laid.last;
         trail_ = laid.trail;
     }
 
-    /// Returns the tool's own settings; the default ones where the machine has a single tool.
-    ToolProfile tool_profile(int tool) const {
-        const auto number = static_cast<std::size_t>(tool);
-        return number < profile_.tools.size() ? profile_.tools[number] : ToolProfile{};
+    /// Returns the number of layers below this one that are of the same part, where they are printed one by
+    /// one.
+    int level(int layer) const { return layer - layers_.first_of_stack(layers_.stack_of(layer)); }
+    /// Returns the height of the highest part that is done before a layer, where they are printed one by one,
+    /// mm.
+    double highest_done(int layer) const {
+        double highest = 0;
+        for (int stack = 1; layers_.first_of_stack(stack) <= layer && stack <= layers_.stacks(); ++stack)
+            highest = std::max(highest, layers_.top(layers_.first_of_stack(stack) - 1));
+        return highest;
     }
     double nozzle_temperature(int layer) const {
-        const ToolProfile tool = tool_profile(tool_);
-        const double all = tool.nozzle_temperature;
-        const double first = tool.first_layer_nozzle_temperature > 0 ? tool.first_layer_nozzle_temperature
-                             : all > 0                               ? all
-                                                                     : gcode_.first_layer_nozzle_temperature;
-        if (layer == 0 && first > 0) return first;
-        return all > 0 ? all : filament_.nozzle_temperature;
+        return lamella::nozzle_temperature(profile_, tool_, level(layer) == 0);
     }
-    double bed_temperature(int layer) const {
-        const double first = gcode_.first_layer_bed_temperature;
-        return layer == 0 && first > 0 ? first : filament_.bed_temperature;
-    }
+    double bed_temperature(int layer) const { return lamella::bed_temperature(profile_, level(layer) == 0); }
     /// Sets the temperatures if they differ from those of the layer before, without waiting for them.
     void change_heat(int layer, GcodeText& text) const {
         if (nozzle_temperature(layer) != nozzle_temperature(layer - 1))
@@ -241,7 +246,7 @@ class Gcode : public Backend {
                 filament_.bed_x,
                 filament_.bed_y,
                 filament_.bed_z,
-                std::accumulate(filament_used_.begin(), filament_used_.end(), 0.0),
+                std::accumulate(totals_.filament.begin(), totals_.filament.end(), 0.0),
                 tool_,
                 tool_};
     }
@@ -302,8 +307,8 @@ class Gcode : public Backend {
     void select_tool(GcodeText& text) const {
         if (tools_.size() == 1 && tool_ == 0) return;
         for (const int tool : tools_) {
-            if (tool != tool_ && tool_profile(tool).standby_temperature > 0)
-                text.line(heat_line(gcode_.flavour, tool, tool_profile(tool).standby_temperature));
+            if (tool != tool_ && tool_profile(profile_, tool).standby_temperature > 0)
+                text.line(heat_line(gcode_.flavour, tool, tool_profile(profile_, tool).standby_temperature));
         }
         text.line(fmt::format("T{}", tool_));
         text.line("M109 S" + format_number(nozzle_temperature(range_.first), 0));
@@ -320,7 +325,7 @@ class Gcode : public Backend {
         moves.extrude(straight_pieces(std::vector<dvec2>{from, to}).front(), bead_area(width, prime_height),
                       filament_.first_layer_speed, gcode_.acceleration, -1);
         append(moves, text);
-        filament_used_[static_cast<std::size_t>(tool_)] += text.filament();
+        totals_.filament[static_cast<std::size_t>(tool_)] += text.filament();
     }
 
     /// Appends moves that begin at the nozzle as lines, and counts their duration.
@@ -329,48 +334,13 @@ class Gcode : public Backend {
         text.moves(moves.moves(), position_);
         add(seconds_of(moves.moves(), position_, gcode_));
         position_ = moves.position();
+        z_ = moves.z();
     }
     void add(const std::vector<double>& seconds) {
         for (const double s : seconds) {
-            seconds_ += s;
+            totals_.seconds += s;
             rate_.add(s);
         }
-    }
-
-    /// Writes the facts that hosts and previewers look for at the end of a file, and a summary of the job.
-    void write_facts(GcodeText& text) const {
-        const double section = pi / 4 * filament_.filament * filament_.filament / 1000;  // cm3 per mm
-        const double density = profile_.support.density;
-        const auto used = [&](const char* what, const std::vector<double>& filament) {
-            const auto list = [&](auto amount, int decimals) {
-                std::string numbers;
-                for (std::size_t tool = 0; tool < filament.size(); ++tool) {
-                    if (tool > 0) numbers += ", ";
-                    numbers += format_number(amount(static_cast<int>(tool), filament[tool]), decimals);
-                }
-                return numbers;
-            };
-            const auto grams = [&](int tool, double mm) {
-                const double own = tool_profile(tool).density;
-                return mm * section * (own > 0 ? own : density);
-            };
-            text.line(fmt::format("; {} used [mm] = {}", what, list([](int, double mm) { return mm; }, 2)));
-            text.line(fmt::format("; {} used [cm3] = {}", what,
-                                  list([&](int, double mm) { return mm * section; }, 3)));
-            text.line(fmt::format("; {} used [g] = {}", what, list(grams, 2)));
-        };
-        used("filament", filament_used_);
-        if (supported_ && tools_.size() == 1) used("support material", {support_filament_});
-        text.line("; filament density [g/cm3] = " + format_number(density, 3));
-        text.line("; estimated printing time (normal mode) = " + duration_text(seconds_));
-        text.line(fmt::format("; worst segment rate [lines/s] = {} over {} lines",
-                              format_number(rate_.worst(), 1), gcode_.planner_blocks));
-        if (gcode_.lines_per_second > 0) {
-            text.line("; slowed for the segment rate [mm] = " + format_number(slowed_, 1));
-        }
-        text.line(fmt::format("; total layers count = {}", range_.count()));
-        text.line("; layer_height = " + format_number(layers_.greatest_height(), 4));
-        text.line(fmt::format("; islands too small for a bead = {}", islands_left_out_));
     }
 
     nlohmann::ordered_json state() const {
@@ -378,29 +348,31 @@ class Gcode : public Backend {
         for (const dvec2 point : trail_) trail.push_back({point.x, point.y});
         return {position_.x,
                 position_.y,
-                filament_used_,
-                seconds_,
-                islands_left_out_,
-                support_filament_,
-                slowed_,
+                totals_.filament,
+                totals_.seconds,
+                totals_.islands_left_out,
+                totals_.support_filament,
+                totals_.slowed,
                 rate_.worst(),
                 rate_.recent(),
                 trail,
-                tool_};
+                tool_,
+                z_};
     }
     void restore(const nlohmann::ordered_json& state) {
         try {
             position_ = {state.at(0).get<double>(), state.at(1).get<double>()};
             const auto used = state.at(2).get<std::vector<double>>();
             const int tool = whole_number<int>(state.at(10));
-            if (used.size() != filament_used_.size() || std::ranges::find(tools_, tool) == tools_.end())
+            if (used.size() != totals_.filament.size() || std::ranges::find(tools_, tool) == tools_.end())
                 throw output_->damaged_state();
-            filament_used_ = used;
+            totals_.filament = used;
             tool_ = tool;
-            seconds_ = state.at(3).get<double>();
-            islands_left_out_ = whole_number<std::int64_t>(state.at(4));
-            support_filament_ = state.at(5).get<double>();
-            slowed_ = state.at(6).get<double>();
+            z_ = state.at(11).get<double>();
+            totals_.seconds = state.at(3).get<double>();
+            totals_.islands_left_out = whole_number<std::int64_t>(state.at(4));
+            totals_.support_filament = state.at(5).get<double>();
+            totals_.slowed = state.at(6).get<double>();
             trail_.clear();
             for (const auto& point : state.at(9))
                 trail_.emplace_back(point.at(0).get<double>(), point.at(1).get<double>());
@@ -420,14 +392,11 @@ class Gcode : public Backend {
     LayerRange range_;
     dvec2 shift_{0};  // from part to bed coordinates, mm
     dvec2 position_{0};
-    std::vector<int> tools_;             // of the job, ascending
-    int tool_ = 0;                       // in use
-    std::vector<double> filament_used_;  // by tool, mm
-    double support_filament_ = 0;        // share of supports in it, mm
-    double seconds_ = 0;
-    double slowed_ = 0;  // mm of extrusion
+    double z_ = 0;            // of the nozzle over the bed, mm
+    std::vector<int> tools_;  // of the job, ascending
+    int tool_ = 0;            // in use
+    GcodeTotals totals_;
     RateMeter rate_;
-    std::int64_t islands_left_out_ = 0;
     bool supported_ = false;
     std::vector<dvec2> trail_;  // of the last bead, while the nozzle is still there
 };

@@ -1,4 +1,4 @@
-// Back-end: G-code for filament printers with one extruder, and for lasers (laser_gcode.h).
+// Back-end: G-code for filament printers, and for lasers (laser_gcode.h).
 #pragma once
 
 #include <memory>

@@ -54,7 +54,7 @@ Toolpaths LayerBeads::fill(const Layer& layer, const std::vector<Contour>& conto
 
 /// Returns the layer below; empty for the first layer.
 std::optional<LayerBelow> LayerBeads::footing(const Layer& layer) const {
-    if (layer.index() == 0) return std::nullopt;
+    if (layer.level() == 0) return std::nullopt;
     return neighbours_.footing(layer.index(), profile_.filament.line_width / 4);
 }
 
@@ -67,7 +67,7 @@ std::optional<PlacedPolygons> LayerBeads::core(const Layer& layer) const {
 
 /// Returns brim and skirt of the first layer; empty for other layers.
 Toolpaths LayerBeads::skirt(const Layer& layer, const LayerOutlines& outlines) const {
-    if (layer.index() > 0) return {};
+    if (layer.level() > 0) return {};
     Polygons standing;
     for (const std::vector<Contour>* contours : {&outlines.part, &outlines.supports}) {
         for (const Contour& contour : *contours) standing.push_back(to_polygon(contour.points));
@@ -82,7 +82,7 @@ Toolpaths LayerBeads::skirt(const Layer& layer, const LayerOutlines& outlines) c
 Toolpaths LayerBeads::tower_piece(const Layer& layer, const Rect& rect, double density) const {
     if (rect.size().x < profile_.filament.line_width) return {};
     const ToolpathProfile& t = profile_.toolpath;
-    const bool is_first = layer.index() == 0;  // which holds the tower to the bed
+    const bool is_first = layer.level() == 0;  // which holds the tower to the bed
     const std::vector<Contour> contours{{corners(rect), -1, false}};
     Toolpaths paths;
     append(plan_toolpaths(contours, {line(layer), 1, is_first ? 1 : density, InfillPattern::lines, t.seam},

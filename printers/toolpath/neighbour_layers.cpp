@@ -33,7 +33,10 @@ LayerBelow NeighbourLayers::footing(int index, double pitch) const {
 }
 
 PlacedPolygons NeighbourLayers::core(int index, int below, int above) const {
-    if (index < below || index + above >= job_->layers.count()) return {};
+    const LayerPlan& layers = job_->layers;
+    const int stack = layers.stack_of(index);
+    if (index - below < layers.first_of_stack(stack) || index + above >= layers.first_of_stack(stack + 1))
+        return {};
     Polygons common;
     bool first = true;
     for (int i = index - below; i <= index + above; ++i) {

@@ -25,10 +25,11 @@ class NeighbourLayers {
 
     /// Returns the sections of a layer, 0 <= index < Job::layer_count.
     std::shared_ptr<const LayerOutlines> outlines(int index) const;
-    /// Returns the layer below layer `index`, which must not be the first; `pitch` as for LayerBelow.
+    /// Returns the layer below layer `index`, which must not be the first of its stack; `pitch` as for
+    /// LayerBelow.
     LayerBelow footing(int index, double pitch) const;
     /// Returns the intersection of the sections of `below` layers below and `above` layers above layer
-    /// `index`. Empty if any of them is beyond the first or last layer.
+    /// `index`. Empty if any of them is beyond the first or last layer of the stack.
     PlacedPolygons core(int index, int below, int above) const;
     /// Drops the layers below `index`.
     void forget_below(int index);

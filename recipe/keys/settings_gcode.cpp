@@ -188,6 +188,17 @@ void add_motion(std::vector<Setting>& t) {
     add_gcode_row<&G::arcs>(
         t, "arcs", "--printer-arcs",
         {.help = "Write arcs (G2, G3) for points that lie on an arc within the tolerance."});
+    add_gcode_row<&G::gantry_height>(
+        t, "gantry_height", "--printer-gantry-height",
+        {.unit = "mm",
+         .limits = {0, 10000},
+         .help = "Room below the gantry: the highest part that others may be printed beside, one by one."});
+    add_gcode_row<&G::head_radius>(
+        t, "head_radius", "--printer-head-radius",
+        {.unit = "mm",
+         .limits = {0, 1000},
+         .help =
+             "Reach of the print head around the nozzle: the least gap between parts printed one by one."});
     add_gcode_row<&G::label_objects>(
         t, "label_objects", "--printer-label-objects",
         {.help =

@@ -19,6 +19,10 @@ void add_plate_settings(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.plate.number; }>(
         "plate", "number", "--plate",
         {.limits = {1, 10000}, .fallback = "1", .help = "The plate to make, where the parts need several."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.plate.one_by_one; }>(
+        "plate", "one_by_one", "--one-by-one",
+        {.fallback = "false",
+         .help = "Print each part from the bed up before the next, the lowest first; for filament."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.plate.piece; }>(
         "plate", "piece", "--piece",
         {.limits = {0, 256},

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "engine/base/error.h"
@@ -23,6 +24,20 @@ double room_for_tower(std::span<const PlateItem> items, const PurgeProfile& purg
     }
     const double depth = purge_tower_size(tools.size(), items.front().job.layers, purge).y;
     return depth > 0 ? depth + purge.gap : 0;
+}
+
+void check_one_by_one(const PrinterProfile& printer, bool has_tower) {
+    if (!makes_beads(printer))
+        throw InputError(
+            fmt::format("plate.one_by_one / --one-by-one: {} makes layers of the whole plate; accepted: a "
+                        "filament printer, "
+                        "or --no-one-by-one",
+                        printer.name));
+    if (has_tower)
+        throw InputError(
+            "plate.one_by_one / --one-by-one: a purge tower grows with all parts; accepted: purge.volume = "
+            "0, or "
+            "--no-one-by-one");
 }
 
 /// Back-ends put the middle of a job in the middle of the plate: grows the job until that is as far from the
@@ -46,6 +61,12 @@ PlatedJob put_on_plates(const Recipe& recipe, std::span<const PlateItem> items, 
     options.machine = machine;
     if (makes_beads(recipe.printer)) options.machine.y -= room_for_tower(items, purge);
     options.turns = recipe.plate.turn;
+    const bool are_several = items.size() > 1 || items.front().copies > 1;
+    options.one_by_one = recipe.plate.one_by_one && are_several;
+    if (options.one_by_one) {
+        check_one_by_one(recipe.printer, room_for_tower(items, purge) > 0);
+        options.gap = std::max(options.gap, recipe.printer.gcode.head_radius);
+    }
     std::vector<Job> plates = arrange_plates(items, options);
     const auto count = static_cast<int>(plates.size());
     if (recipe.plate.number > count) {
@@ -56,7 +77,7 @@ PlatedJob put_on_plates(const Recipe& recipe, std::span<const PlateItem> items, 
     Job job = std::move(plates[static_cast<std::size_t>(recipe.plate.number - 1)]);
     if (makes_beads(recipe.printer)) add_purge_tower(job, purge, machine);
     if (!recipe.part.at.empty()) {
-        if (items.size() > 1 || items.front().copies > 1)
+        if (are_several)
             throw InputError(
                 "part.at / --at: several parts are arranged on the plate; accepted: a single part");
         put_at(job, items.front().job.bounds, {recipe.part.at[0][0], recipe.part.at[0][1]});
