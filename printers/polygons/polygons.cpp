@@ -149,6 +149,26 @@ void join_at(const ClipperLib::IntPoint& point, Polygons& lines) {
     lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(ending[1]));
 }
 
+/// A border of a union, and the index of the one that directly encloses it; -1: none.
+struct Border {
+    const ClipperLib::PolyNode* node;
+    int parent;
+};
+
+/// Returns the borders of the polygons' union, breadth first. `tree` holds their points.
+std::vector<Border> borders_of(const Polygons& polygons, ClipperLib::PolyTree& tree) {
+    ClipperLib::Clipper clipper;
+    clipper.AddPaths(polygons, ClipperLib::ptSubject, true);
+    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+    std::vector<Border> borders;
+    const auto take = [&](const ClipperLib::PolyNode& node, int parent) {
+        for (const ClipperLib::PolyNode* child : node.Childs) borders.push_back({child, parent});
+    };
+    take(tree, -1);
+    for (std::size_t i = 0; i < borders.size(); ++i) take(*borders[i].node, static_cast<int>(i));
+    return borders;
+}
+
 }  // namespace
 
 double Segment::length() const { return std::sqrt(dot(b - a, b - a)); }
@@ -224,35 +244,20 @@ Polygons intersect_polygons(const Polygons& a, const Polygons& b) {
 }
 
 std::vector<NestedPolygon> nested_polygons(const Polygons& polygons) {
-    ClipperLib::Clipper clipper;
-    clipper.AddPaths(polygons, ClipperLib::ptSubject, true);
     ClipperLib::PolyTree tree;
-    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
     std::vector<NestedPolygon> nested;
-    std::vector<std::pair<const ClipperLib::PolyNode*, int>> open{{&tree, -1}};
-    for (std::size_t i = 0; i < open.size(); ++i) {  // breadth first: the depth never decreases
-        const auto [node, depth] = open[i];
-        if (depth >= 0) nested.push_back({node->Contour, depth});
-        for (const ClipperLib::PolyNode* child : node->Childs) open.emplace_back(child, depth + 1);
+    for (const auto& [node, parent] : borders_of(polygons, tree)) {
+        const int depth = parent < 0 ? 0 : nested[static_cast<std::size_t>(parent)].depth + 1;
+        nested.push_back({node->Contour, depth});
     }
     return nested;
 }
 
 std::vector<Contour> to_contours(const Polygons& polygons) {
-    ClipperLib::Clipper clipper;
-    clipper.AddPaths(polygons, ClipperLib::ptSubject, true);
     ClipperLib::PolyTree tree;
-    clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
     std::vector<Contour> contours;
-    std::vector<const ClipperLib::PolyNode*> open;
-    const auto take = [&](const ClipperLib::PolyNode& node, int parent) {
-        for (const ClipperLib::PolyNode* child : node.Childs) {
-            contours.push_back({to_points(child->Contour), parent, child->IsHole()});
-            open.push_back(child);
-        }
-    };
-    take(tree, -1);
-    for (std::size_t i = 0; i < open.size(); ++i) take(*open[i], static_cast<int>(i));
+    for (const auto& [node, parent] : borders_of(polygons, tree))
+        contours.push_back({to_points(node->Contour), parent, node->IsHole()});
     return contours;
 }
 

@@ -73,9 +73,8 @@ void add_layers_settings(std::vector<Setting>& table);
 void add_cut_settings(std::vector<Setting>& table);
 /// The rows of the [plate] section.
 void add_plate_settings(std::vector<Setting>& table);
-/// The rows of the [support] section, and those of them about tools.
+/// The rows of the [support] section.
 void add_support_settings(std::vector<Setting>& table);
-void add_support_tool_settings(std::vector<Setting>& table);
 /// The rows of the [[tool]] and [purge] sections.
 void add_tool_settings(std::vector<Setting>& table);
 void add_purge_settings(std::vector<Setting>& table);

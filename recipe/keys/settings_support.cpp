@@ -13,10 +13,9 @@ namespace {
 constexpr Limits thickness{0.05, 100};
 constexpr Limits amount_limits{0, 1000};
 
-/// Adds a row of the printer's supports. Setting one enables supports unless support.kind says otherwise.
-template <auto member>
-void add_support_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
-    static constexpr auto place = [](Recipe & r) -> auto& { return r.printer.support.*member; };
+/// Adds a row of the section. Setting one enables supports unless support.kind says otherwise.
+template <auto place>
+void add_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     Setting s = row<place>("support", key, flag, std::move(facts));
     s.store = [](Recipe& r, std::size_t, const Value& value) {
         using Held = std::remove_reference_t<decltype(place(r))>;
@@ -24,6 +23,13 @@ void add_support_row(std::vector<Setting>& t, const char* key, const char* flag,
         if (r.support == SupportKind::none) r.support = SupportKind::bridges;
     };
     t.push_back(std::move(s));
+}
+
+/// Adds a row of the printer's supports.
+template <auto member>
+void add_support_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
+    constexpr auto place = [](Recipe & r) -> auto& { return r.printer.support.*member; };
+    add_row<place>(t, key, flag, std::move(facts));
 }
 
 /// The overhangs to support.
@@ -129,6 +135,23 @@ void add_printing(std::vector<Setting>& t) {
         {.limits = {0, 1}, .help = "Grey value of supports in image stacks; 1: white like the part."});
 }
 
+/// The tools that make supports.
+void add_tools(std::vector<Setting>& t) {
+    add_row < [](Recipe & r) -> auto& { return r.support_tools.tool; }
+    > (t, "tool", "--support-tool",
+       {.fallback = "that of the part", .help = "Name of the [[tool]] that makes the supports."});
+    add_row < [](Recipe & r) -> auto& { return r.support_tools.interface_tool; }
+    > (t, "interface_tool", "--support-interface-tool",
+       {.fallback = "support.tool",
+        .help = "Name of the [[tool]] that makes supports near the part, such as one of soluble filament."});
+    add_row < [](Recipe & r) -> auto& { return r.support_tools.interface; }
+    > (t, "interface", "--support-interface",
+       {.unit = "mm",
+        .limits = {0.01, 1000},
+        .fallback = "1",
+        .help = "Distance from the part within which interface_tool makes the supports."});
+}
+
 }  // namespace
 
 void add_support_settings(std::vector<Setting>& table) {
@@ -139,7 +162,7 @@ void add_support_settings(std::vector<Setting>& table) {
     add_needs(table);
     add_shape(table);
     add_printing(table);
-    add_support_tool_settings(table);
+    add_tools(table);
 }
 
 }  // namespace lamella

@@ -85,31 +85,4 @@ void add_purge_settings(std::vector<Setting>& t) {
                                 .help = "Filled share of the tower where nothing is purged."});
 }
 
-void add_support_tool_settings(std::vector<Setting>& t) {
-    const auto add = [&]<auto member>(const char* key, const char* flag, SettingSpec facts) {
-        static constexpr auto place = [](Recipe & r) -> auto& { return r.support_tools.*member; };
-        Setting s = row<place>("support", key, flag, std::move(facts));
-        s.store = [](Recipe& r, std::size_t, const Value& value) {
-            using Held = std::remove_reference_t<decltype(place(r))>;
-            place(r) = from_value<Held>(value);
-            if (r.support == SupportKind::none) r.support = SupportKind::bridges;
-        };
-        t.push_back(std::move(s));
-    };
-    using S = SupportToolsRecipe;
-    add.operator()<&S::tool>(
-        "tool", "--support-tool",
-        {.fallback = "that of the part", .help = "Name of the [[tool]] that makes the supports."});
-    add.operator()<&S::interface_tool>(
-        "interface_tool", "--support-interface-tool",
-        {.fallback = "support.tool",
-         .help = "Name of the [[tool]] that makes supports near the part, such as one of soluble filament."});
-    add.operator()<&S::interface>(
-        "interface", "--support-interface",
-        {.unit = "mm",
-         .limits = {0.01, 1000},
-         .fallback = "1",
-         .help = "Distance from the part within which interface_tool makes the supports."});
-}
-
 }  // namespace lamella

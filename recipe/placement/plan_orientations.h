@@ -24,10 +24,10 @@ std::size_t affordable_plans(const PlanCost& cost);
 /// Returns the orientation of a direction to print along, without a plan.
 using OrientationMeasure = std::function<Orientation(dvec3 up)>;
 
-/// Plans the supports of `plans` orientations and sorts those before all others, by the material: of the
-/// first in the list, and with a third of the plans of neighbours of the best, in steps from 4 degrees down
-/// to half of one. Neighbours are added to the list. Plans run side by side in the caller's arena; the
-/// result is the same for any number of threads. Throws as LaidPart does.
+/// Plans the supports of at most `plans` orientations and sorts those before all others, by the material: of
+/// the first in the list but hopeless ones, and with a third of the plans of neighbours of the best, in steps
+/// from 4 degrees down to half of one. Neighbours are added to the list. Plans run side by side in the
+/// caller's arena; the result is the same for any number of threads. Throws as LaidPart does.
 void plan_orientations(const LaidPart& part, std::size_t plans, const OrientationMeasure& measure,
                        const OrientOptions& options, std::vector<Orientation>& list);
 
