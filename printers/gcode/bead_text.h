@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/archive.h"
 #include "printers/gcode/gcode_moves.h"
 #include "printers/gcode/layer_beads.h"
 #include "printers/gcode/object_labels.h"

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/contours/contours.h"
+#include "engine/field/slice_context.h"
 #include "engine/solids/csg.h"
 #include "printers/polygons/placed_polygons.h"
 #include "printers/vector/dowel_places.h"

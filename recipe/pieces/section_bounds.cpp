@@ -90,6 +90,7 @@ Box section_bounds(const Field& solid) {
     const auto height = [&](int i) { return box.lo.z + (i + 0.5) * apart; };
     Sections all(solid);
     std::vector<Rect> rects;
+    rects.reserve(section_count);
     for (int i = 0; i < section_count; ++i) rects.push_back(all.at(height(i)));
     const auto has = [](const Rect& rect) { return !rect.empty(); };
     const auto begin = std::ranges::find_if(rects, has);
