@@ -9,8 +9,7 @@ void check_range(const Job& job, const LayerRange& range, TakesStacks takes) {
     if (job.one_by_one() && takes == TakesStacks::no) {
         throw InputError(
             "plate.one_by_one / --one-by-one: this output, or check, takes layers of the whole plate; "
-            "accepted: "
-            "G-code of a filament printer, or --no-one-by-one");
+            "accepted: G-code of a filament printer, or --no-one-by-one");
     }
     if (range.first < 0 || range.last > job.layers.count() || range.first >= range.last) {
         throw InputError("layers " + std::to_string(range.first) + ":" + std::to_string(range.last) +

@@ -15,9 +15,8 @@ void check_gantry(const Job& job, const PrinterProfile& profile) {
         if (top <= room) continue;
         throw InputError(fmt::format(
             "plate.one_by_one / --one-by-one: {} is {:.2f} mm high, and the gantry passes {:.2f} mm above "
-            "the bed "
-            "(printer.gantry_height) while the next part is printed; accepted: lower parts but one, or "
-            "--no-one-by-one",
+            "the bed (printer.gantry_height) while the next part is printed; accepted: all parts but one "
+            "lower than that, or --no-one-by-one",
             job.objects[static_cast<std::size_t>(stack)].name, top, room));
     }
 }
