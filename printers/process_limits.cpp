@@ -5,6 +5,7 @@
 // [4] Neway, design guidelines for binder jetting (neway3dp.com/services/binder-jetting)
 // [5] Rigid Prints, design guide for filament, wall thickness (rigidprints.co.uk/design-guide/wall-thickness)
 // [6] Cut Laser Cut, "What is laser kerf" (cutlasercut.com/resources/tips-and-advice/what-is-laser-kerf)
+// [7] PrusaSlicer, SLA::SupportPointGenerator (github.com/prusa3d/PrusaSlicer)
 #include "printers/process_limits.h"
 
 #include <algorithm>
@@ -62,7 +63,8 @@ PrintLimits resin_limits(const PrinterProfile& profile) {
                    {Check::overhangs, warn},
                    {Check::necks, warn},
                    {Check::gaps, warn},
-                   {Check::cups, warn}});
+                   {Check::cups, warn},
+                   {Check::peel, warn}});
     const double pixel = std::max(profile.image.pixel_x, profile.image.pixel_y);
     const bool has_pixels = find_backend(profile.backend).content == LayerContent::pixels;
     if (has_pixels) limits.piece = pixel * pixel * pixel;          // what is smaller hardens nowhere
@@ -72,6 +74,7 @@ PrintLimits resin_limits(const PrinterProfile& profile) {
     limits.neck = 0.6;                                             // [1] walls held at one side
     limits.cavity = 1;                                             // by practice
     limits.cup = 10;                                               // by practice
+    limits.peel = 60;  // [7] a tip 0.4 mm wide holds 7.7 mm^2 of a layer
     return limits;
 }
 
@@ -160,6 +163,7 @@ PrintLimits process_limits(const PrinterProfile& profile) {
     limits.large_part = chosen(check.large_part, limits.large_part);
     limits.cavity = chosen(check.min_cavity, limits.cavity);
     limits.cup = chosen(check.min_cup, limits.cup);
+    limits.peel = chosen(check.max_peel, limits.peel);
     for (std::size_t i = 0; i < check_count; ++i) {
         limits.verdicts[i] = chosen(check.concerns[i], limits.verdicts[i]);
     }

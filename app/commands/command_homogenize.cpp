@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 
+#include "app/charts/stiffness_plot.h"
 #include "app/commands/commands.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/interrupt.h"
@@ -13,7 +14,6 @@
 #include "app/console/text_output.h"
 #include "app/ranks/distribute_solves.h"
 #include "app/ranks/run_on_ranks.h"
-#include "app/reports/stiffness_plot.h"
 #include "app/reports/stiffness_report.h"
 #include "engine/base/error.h"
 #include "recipe/base_material.h"

@@ -9,13 +9,13 @@
 #include <optional>
 #include <set>
 
+#include "app/charts/structure_plot.h"
 #include "app/commands/commands.h"
 #include "app/commands/prepare_job.h"
 #include "app/console/interrupt.h"
 #include "app/console/text_output.h"
 #include "app/ranks/distribute_cases.h"
 #include "app/ranks/run_on_ranks.h"
-#include "app/reports/structure_plot.h"
 #include "app/reports/structure_text.h"
 #include "engine/base/error.h"
 #include "procedural/volume/write_nrrd.h"

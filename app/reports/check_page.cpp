@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/charts/peel_chart.h"
 #include "app/reports/fault_picture.h"
 #include "engine/checks/check_table.h"
 #include "printers/common/thumbnail.h"
@@ -237,6 +238,12 @@ constexpr const char* colours =
     "<span><i style=\"background:#598fcc\"></i>supports</span> "
     "<span><i style=\"background:#e3e8ed\"></i>the layer below</span></p>\n";
 
+std::string peel_section(const PeelCurve& curve, double limit, const Job& job) {
+    return "<h2>Peel</h2>\n<p>The vat's film pulls at each layer in proportion to its area, and what lies "
+           "below must hold. The red line is the limit.</p>\n<figure>" +
+           peel_chart(curve, limit, job.layers) + "</figure>\n";
+}
+
 }  // namespace
 
 std::string check_page(const CheckOutcome& outcome, const Job& job) {
@@ -257,6 +264,7 @@ std::string check_page(const CheckOutcome& outcome, const Job& job) {
     for (const CheckResult& result : report.results) {
         if (!result.passed()) text += section_of(result, outcome, job);
     }
+    if (report.peel) text += peel_section(*report.peel, outcome.plan.options.limits.peel, job);
     return text + "</body>\n</html>\n";
 }
 

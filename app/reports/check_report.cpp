@@ -58,7 +58,7 @@ std::string places(const CheckResult& result) {
     return text;
 }
 
-/// Appends "mm", "mm2" or "mm3" to a key.
+/// Appends the unit, such as "mm2", to a key.
 std::string keyed(const char* key, Check check) { return fmt::format("{}_{}", key, size_unit(check)); }
 
 /// Returns all limits, whether or not their checks were made.
@@ -88,6 +88,10 @@ Json limits_mm3_json(const PrintLimits& limits) {
             {"large_part", limits.large_part},
             {"cavity", limits.cavity},
             {"cup", limits.cup}};
+}
+
+Json curve_json(const LayerCurve& curve) {
+    return {{"layers_a_value", curve.layers_each()}, {"values", curve.values()}};
 }
 
 /// Returns the begin and end of each run, in the middle of its row.
@@ -189,11 +193,14 @@ nlohmann::ordered_json check_json(const CheckOutcome& outcome, const Job& job) {
               {"volume_mm3", outcome.report.volume},
               {"limits_mm", limits_mm_json(outcome.plan.options.limits)},
               {"limits_mm2", limits_mm2_json(outcome.plan.options.limits)},
-              {"limits_mm3", limits_mm3_json(outcome.plan.options.limits)}};
+              {"limits_mm3", limits_mm3_json(outcome.plan.options.limits)},
+              {"limits_times", {{"peel", outcome.plan.options.limits.peel}}}};
     if (!outcome.plan.notes.empty()) json["notes"] = outcome.plan.notes;
     json["checks"] = Json::array();
     for (const CheckResult& result : outcome.report.results)
         json["checks"].push_back(result_json(result, outcome));
+    if (const auto& peel = outcome.report.peel)
+        json["peel"] = {{"area_mm2", curve_json(peel->area)}, {"load_times", curve_json(peel->load)}};
     return json;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/checks/layer_checks.h"
 #include "engine/checks/neck_check.h"
 #include "engine/checks/overhang_check.h"
+#include "engine/checks/peel_check.h"
 #include "engine/checks/piece_check.h"
 #include "engine/checks/thickness_check.h"
 #include "engine/checks/void_check.h"
@@ -37,6 +38,7 @@ constexpr std::array<CheckInfo, check_count> infos{{
      .thickness_limit = "least gap"},
     {.name = "cavities", .unit = "mm3", .limit = &PrintLimits::cavity, .limit_unit = "mm3"},
     {.name = "cups", .unit = "mm3", .limit = &PrintLimits::cup, .limit_unit = "mm3"},
+    {.name = "peel", .unit = "times", .limit = &PrintLimits::peel, .limit_unit = "times", .adds_up = false},
     {.name = "build_volume", .unit = "mm", .adds_up = false},
     {.name = "empty_layers", .unit = "mm"},
 }};
@@ -56,7 +58,7 @@ std::unique_ptr<LayerCheck> make_gap_check(const CheckContext& context) {
 
 constexpr std::array sheets{Check::sheets}, empty_layers{Check::empty_layers},
     build_volume{Check::build_volume}, walls{Check::thickness}, gaps{Check::gaps}, necks{Check::necks},
-    pieces{Check::connectivity};
+    pieces{Check::connectivity}, peel{Check::peel};
 constexpr std::array voids{Check::cavities, Check::cups};
 constexpr std::array overhangs{Check::islands, Check::overhangs, Check::bridges};
 
@@ -68,6 +70,8 @@ constexpr std::array passes{
     CheckPass{.finds = walls, .make = make_wall_check},
     CheckPass{.finds = gaps, .make = make_gap_check},
     CheckPass{.finds = necks, .make = make<NeckCheck>},
+    CheckPass{
+        .finds = peel, .make = make<PeelCheck>, .reads_part_labels = true, .reads_printed_labels = true},
     CheckPass{.finds = overhangs,
               .make = make<OverhangCheck>,
               .reads_part_labels = true,

@@ -12,9 +12,9 @@ namespace lamella {
 /// A kind of fault.
 struct CheckInfo {
     const char* name;                       ///< its key in settings and reports
-    const char* unit;                       ///< of the size of a fault: "mm", "mm2" or "mm3"
+    const char* unit;                       ///< of the size of a fault: "mm", "mm2", "mm3" or "times"
     double PrintLimits::*limit = nullptr;   ///< what sizes or thicknesses are compared with; null: nothing
-    const char* limit_unit = "";            ///< "mm" or "mm3"
+    const char* limit_unit = "";            ///< "mm", "mm3" or "times"
     const char* thickness_limit = nullptr;  ///< the limit's name, if it is a thickness that rows must resolve
     bool adds_up = true;                    ///< whether the sum of fault sizes means anything
 };

@@ -72,6 +72,8 @@ class LayerCheck {
     virtual void finish() {}
     /// Returns the faults of a kind, once finished.
     virtual const FaultList& faults(Check check) const = 0;
+    /// Adds to a report what is no fault, once finished.
+    virtual void complete(CheckReport& /*report*/) const {}
 };
 
 }  // namespace lamella

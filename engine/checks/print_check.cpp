@@ -102,6 +102,7 @@ void check_options(const Job& job, const PrintCheckOptions& options) {
     }
     check_number("overhang", limits.overhang, 0);
     check_number("support spacing", limits.support_spacing, 0);
+    check_number("peel factor", limits.peel, 0);
 }
 
 }  // namespace
@@ -215,6 +216,7 @@ const CheckReport& PrintCheck::report() const { return state_->report; }
 
 void PrintCheck::State::make_report() {
     report.band = grid.band;
+    for (const ActiveCheck& active : checks) active.check->complete(report);
     for (const Check check : all_checks()) {
         if (!options.limits.wants(check)) continue;
         const auto finder = std::ranges::find_if(checks, [&](const ActiveCheck& active) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/checks/layer_curve.h"
 #include "engine/checks/print_limits.h"
 #include "engine/layers/layer_stream.h"
 #include "engine/runs/run_components.h"
@@ -33,11 +34,18 @@ struct CheckResult {
     bool passed() const { return count == 0; }
 };
 
+/// What layers pull at while they are peeled off the vat's film (PeelCheck).
+struct PeelCurve {
+    LayerCurve area;  ///< of the layer, mm^2
+    LayerCurve load;  ///< of the section that is stressed most: area pulled over area of the section
+};
+
 /// What a check found.
 struct CheckReport {
     std::vector<CheckResult> results;  ///< of all that was looked for, in the order of Check
     RowBand band;                      ///< how the runs of faults lie
     double volume = 0;                 ///< of the part, mm^3
+    std::optional<PeelCurve> peel;     ///< if Check::peel was looked for
 
     /// Whether nothing is wrong that the process fails for.
     bool passed() const;

@@ -19,10 +19,11 @@ enum class Check : unsigned char {
     gaps,          ///< no void is too narrow; size: volume, mm^3
     cavities,      ///< no void is closed off; size: volume, mm^3
     cups,          ///< no void is closed off by the vat's film while it is printed; size: volume, mm^3
+    peel,  ///< no section is too small for what is peeled off above; size: area over section, a factor
     build_volume,  ///< all lies within the machine's reach; size: by how much something sticks out, mm
     empty_layers   ///< each layer holds some of the part; size: height of the gap, mm
 };
-inline constexpr std::size_t check_count = 12;
+inline constexpr std::size_t check_count = 13;
 
 /// Returns all checks, in their order.
 inline std::array<Check, check_count> all_checks() {
@@ -53,6 +54,7 @@ struct PrintLimits {
     double support_gap = 0;        ///< height that may lie between a support and what it holds
     double cavity = 1;             ///< volume from which a closed void matters, mm^3
     double cup = 10;               ///< volume from which a suction cup matters, mm^3
+    double peel = 60;              ///< area that is peeled off at once, over a section that carries the pull
     dvec3 build_volume{infinity};  ///< width, depth and height that the machine reaches
 
     Severity verdict(Check check) const { return verdicts[static_cast<std::size_t>(check)]; }

@@ -19,7 +19,8 @@ enum class Process : unsigned char {
 /// Severity of a fault: the default of the process (none), or the one given here.
 enum class SeverityOverride : unsigned char { none, off, warn, fail };
 
-/// Limits of the checks, in mm. A negative value selects the default of the process (see default_limits).
+/// Limits of the checks, lengths in mm. A negative value selects the default of the process (see
+/// default_limits).
 struct CheckProfile {
     Process process = Process::from_backend;
     double pitch = 0;              ///< distance between sampled rows; 0: chosen from the other limits
@@ -34,6 +35,7 @@ struct CheckProfile {
     double large_part = -1;        ///< least volume of a large part, mm^3
     double min_cavity = -1;        ///< least volume of a closed void that matters, mm^3
     double min_cup = -1;           ///< least volume of a suction cup that matters, mm^3
+    double max_peel = -1;          ///< greatest area peeled off at once, over a section that carries the pull
     std::array<SeverityOverride, check_count> concerns{};  ///< indexed by Check
 };
 

@@ -83,6 +83,12 @@ const std::array<Words, check_count> table{{
     {"a void is closed off by the vat's film while it is printed",
      "Give it a hole near the plate (--drains 2, or a [[hole]]), or turn the part over.",
      [](const PrintLimits& limits) { return fmt::format("no suction cup over {:.4g} mm3", limits.cup); }},
+    {"a section is too small for the layers that are peeled off the vat's film above it",
+     "Make it thicker there, turn the part so that its layers are smaller, or add supports "
+     "(--support pillars).",
+     [](const PrintLimits& limits) {
+         return fmt::format("at most {:.4g} mm2 of a layer for each mm2 that holds it", limits.peel);
+     }},
     {"the part sticks out of the machine's reach", "Scale or turn the part, or take a larger machine.",
      [](const PrintLimits& limits) { return build_volume_text(limits.build_volume); }},
     {"a layer holds nothing of the part", "Join what lies above it to what lies below.",

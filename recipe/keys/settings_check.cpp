@@ -83,6 +83,10 @@ void add_sizes(std::vector<Setting>& t) {
                              "Minimum volume of a closed void that is a fault", "1");
     add_size<&C::min_cup>(t, "least_cup", "--check-least-cup", "mm3",
                           "Minimum volume of a suction cup that is a fault", "10");
+    add_size<&C::max_peel>(t, "most_peel", "--check-most-peel", "",
+                           "Maximum area peeled off the vat's film at once, over the area of a section that "
+                           "carries the pull",
+                           "60");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "engine/checks/neck_check.h"
 #include "engine/checks/overhang_check.h"
+#include "engine/checks/peel_check.h"
 #include "engine/checks/void_check.h"
 #include "engine/layers/survey_rows.h"
 #include "engine/morphology/sampled_ball.h"
@@ -172,6 +173,23 @@ void check_voids(benchmark::State& state) {
     }
 }
 
+void check_peel(benchmark::State& state) {
+    std::vector<LabelledLayer> labels;
+    for (const RunRows& rows : layers())
+        labels.push_back(label_layer(rows, static_cast<int>(labels.size()), Growth{}));
+    for (auto _ : state) {
+        PeelCheck peel(context());
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            LayerSample layer;
+            layer.index = static_cast<int>(i);
+            layer.part = labels[i];
+            peel.add(layer, {});
+        }
+        peel.finish();
+        state.counters["places"] = static_cast<double>(peel.faults(Check::peel).count());
+    }
+}
+
 void check_hold(benchmark::State& state) {
     std::vector<LabelledLayer> labels;
     for (const RunRows& rows : layers())
@@ -222,6 +240,7 @@ BENCHMARK_CAPTURE(check_thickness_up_by_all, solid, FeatureKind::wall, 0.6)->Uni
 BENCHMARK_CAPTURE(check_thickness_up_by_all, gaps, FeatureKind::gap, 0.5)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_pieces)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_voids)->Unit(benchmark::kMillisecond);
+BENCHMARK(check_peel)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_hold)->Unit(benchmark::kMillisecond);
 BENCHMARK(check_necks)->Unit(benchmark::kMillisecond);
 

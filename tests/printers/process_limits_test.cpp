@@ -77,18 +77,18 @@ TEST_CASE("each kind of machine works by its process", "[check]") {
 TEST_CASE("what matters is decided by the process, and by the profile over it", "[check]") {
     // connectivity, sheets, islands, overhangs, bridges, thickness, necks, gaps, cavities, cups, build
     // volume, empty layers
-    CHECK(verdicts(machine("gcode")) == "F-FFFFww--FF");
-    CHECK(verdicts(machine("sl1")) == "F-Fw-FwwFwFF");
-    CHECK(verdicts(machine("cli")) == "F----FwwF-FF");
-    CHECK(verdicts(machine("dxf")) == "wF---FwFw-Fw");
+    CHECK(verdicts(machine("gcode")) == "F-FFFFww---FF");
+    CHECK(verdicts(machine("sl1")) == "F-Fw-FwwFwwFF");
+    CHECK(verdicts(machine("cli")) == "F----FwwF--FF");
+    CHECK(verdicts(machine("dxf")) == "wF---FwFw--Fw");
     PrinterProfile tied = machine("dxf");
     tied.cutting.ties = Ties::join;
-    CHECK(verdicts(tied) == "ww---FwFw-Fw");
+    CHECK(verdicts(tied) == "ww---FwFw--Fw");
     PrinterProfile own = machine("gcode");
     own.check.concerns[0] = SeverityOverride::off;
     own.check.concerns[1] = SeverityOverride::fail;
     own.check.concerns[2] = SeverityOverride::warn;
-    CHECK(verdicts(own) == "-FwFFFww--FF");
+    CHECK(verdicts(own) == "-FwFFFww---FF");
 }
 
 TEST_CASE("sizes are the machine's where it has them, and the profile's where it says so", "[check]") {

@@ -26,8 +26,9 @@ std::string boxes(const Folder& folder, const std::vector<Box>& parts, double la
 /// Only these checks fail, with words of --check-NAME; all others are off.
 std::string only(const std::vector<std::string>& checks) {
     std::string flags;
-    for (const std::string name : {"connectivity", "sheets", "islands", "overhangs", "bridges", "thickness",
-                                   "necks", "gaps", "cavities", "cups", "build-volume", "empty-layers"}) {
+    for (const std::string name :
+         {"connectivity", "sheets", "islands", "overhangs", "bridges", "thickness", "necks", "gaps",
+          "cavities", "cups", "peel", "build-volume", "empty-layers"}) {
         const bool on = std::ranges::find(checks, name) != checks.end();
         flags += fmt::format("--check-{} {} ", name, on ? "fail" : "off");
     }
@@ -56,7 +57,7 @@ std::vector<Box> two_blocks() { return {{{0, 0, 0}, {10, 10, 10}}, {{20, 0, 0}, 
 TEST_CASE("a block passes on every kind of machine, with a line for each check", "[check]") {
     for (const auto& [printer, process, checks] :
          std::vector<std::tuple<std::string, std::string, int>>{{"prusa-mk4", "filament", 9},
-                                                                {"prusa-sl1s", "resin", 10},
+                                                                {"prusa-sl1s", "resin", 11},
                                                                 {"powder-bed", "powder", 6},
                                                                 {"binder-jet-600", "powder", 7},
                                                                 {"grbl-laser", "cutting", 8},
@@ -293,7 +294,7 @@ TEST_CASE("slice --check says of masks what check says, from lines that both loo
             run_lamella("slice --check --json --force " + foam + machine + "-o " + folder / "out");
         REQUIRE((run.code == 0 || run.code == 1));
         CHECK(Json::parse(run.out)["checks"][0] == alone);
-        CHECK(alone["checks"].size() == 10);
+        CHECK(alone["checks"].size() == 11);
         fs::remove_all(folder / "out");
     }
 }

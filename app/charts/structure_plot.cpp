@@ -1,12 +1,12 @@
 // Two panels of SVG: polylines over the steps, and rectangles of the shape's columns.
-#include "app/reports/structure_plot.h"
+#include "app/charts/structure_plot.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/reports/svg_text.h"
+#include "app/charts/svg_text.h"
 #include "recipe/structure/structure_report.h"
 
 namespace lamella {

@@ -1,5 +1,5 @@
 // Draws lines on logarithmic axes, and a surface of small quadrilaterals sorted back to front.
-#include "app/reports/stiffness_plot.h"
+#include "app/charts/stiffness_plot.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/reports/svg_text.h"
+#include "app/charts/svg_text.h"
 
 namespace lamella {
 

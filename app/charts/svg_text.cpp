@@ -1,5 +1,5 @@
 // Text elements.
-#include "app/reports/svg_text.h"
+#include "app/charts/svg_text.h"
 
 #include <fmt/format.h>
 
