@@ -50,6 +50,7 @@ Json as_json(const Orientation& orientation, bool has_loads) {
             {"largest_layer_mm2", figures.largest_layer},
             {"largest_step_mm2", figures.largest_step},
             {"stands_mm", figures.stands},
+            {"cups_mm3", orientation.cups ? Json(*orientation.cups) : Json()},
             {"load_across", has_loads ? Json(figures.load_across) : Json()}};
 }
 
@@ -63,20 +64,23 @@ std::string row(const std::string& name, const Orientation& orientation, bool ha
     const OrientationFigures& f = orientation.figures;
     const std::string planned = orientation.planned ? fmt::format("{:.0f}", *orientation.planned) : "";
     const std::string across = has_loads ? fmt::format(" {:>6.0f}", 100 * f.load_across) : "";
-    return fmt::format("{:<4} {:>8} {:>8.0f} {:>8.0f} {:>6.1f} {:>6.0f} {:>7.0f} {:>8.0f} {:>6.1f}{}   {}\n",
-                       name, planned, f.support_volume, f.overhang_area, f.height, f.bed_area,
-                       f.largest_layer, f.largest_step, f.stands, across, lay_on_text(orientation.lay_on));
+    const std::string cups = orientation.cups ? fmt::format(" {:>6.0f}", *orientation.cups) : "";
+    return fmt::format(
+        "{:<4} {:>8} {:>8.0f} {:>8.0f} {:>6.1f} {:>6.0f} {:>7.0f} {:>8.0f} {:>6.1f}{}{}   {}\n", name,
+        planned, f.support_volume, f.overhang_area, f.height, f.bed_area, f.largest_layer, f.largest_step,
+        f.stands, cups, across, lay_on_text(orientation.lay_on));
 }
 
 std::string as_text(const OrientReport& report) {
-    const bool has_loads = report.has_loads;
+    const bool has_loads = report.has_loads, has_cups = report.now.cups.has_value();
     std::string text;
     const auto head = [&](auto... words) {
-        text += fmt::format("{:<4} {:>8} {:>8} {:>8} {:>6} {:>6} {:>7} {:>8} {:>6}{}   {}\n", "", words...);
+        text += fmt::format("{:<4} {:>8} {:>8} {:>8} {:>6} {:>6} {:>7} {:>8} {:>6}{}{}   {}\n", "", words...);
     };
     head("supports", "estimate", "overhang", "height", "on bed", "largest", "largest", "stands",
-         has_loads ? " across" : "", "lay_on");
-    head("mm3", "mm3", "mm2", "mm", "mm2", "layer", "step mm2", "mm", has_loads ? "      %" : "", "x,y,z");
+         has_cups ? "   cups" : "", has_loads ? " across" : "", "lay_on");
+    head("mm3", "mm3", "mm2", "mm", "mm2", "layer", "step mm2", "mm", has_cups ? "    mm3" : "",
+         has_loads ? "      %" : "", "x,y,z");
     text += row("now", report.now, has_loads);
     for (std::size_t i = 0; i < report.best.size(); ++i)
         text += row(fmt::format("{}", i + 1), report.best[i], has_loads);

@@ -9,10 +9,12 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
+#include "printers/process_limits.h"
 #include "printers/registry.h"
 #include "recipe/build/build_body.h"
 #include "recipe/placement/part_placement.h"
 #include "recipe/placement/plan_orientations.h"
+#include "recipe/placement/suction_cups.h"
 
 namespace lamella {
 
@@ -91,6 +93,19 @@ std::vector<Orientation> differing(const std::vector<Orientation>& list, std::si
     return kept;
 }
 
+/// Measures the suction cups of the reported orientations, side by side.
+void measure_cups(const LaidPart& part, const Recipe& recipe, const OrientOptions& options,
+                  OrientReport& report) {
+    const PrintLimits limits = process_limits(recipe.printer);
+    if (!limits.wants(Check::cups)) return;
+    std::vector<Orientation*> all{&report.now};
+    for (Orientation& orientation : report.best) all.push_back(&orientation);
+    parallel_for(all.size(), [&](std::size_t i) {
+        all[i]->cups =
+            cup_volume(part.body(all[i]->lay_on), recipe.layers.height, limits.cup, {1, {}, options.cancel});
+    });
+}
+
 }  // namespace
 
 OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
@@ -122,12 +137,13 @@ OrientReport orient_part(const Recipe& given, const OrientOptions& options) {
         for (const OrientationFigures& figures : best_orientations(
                  cover, rules, score_of(options.goal), std::max(options.count, plans), apart, options.cancel))
             list.push_back({figures, mirror * -figures.up});
+        const LaidPart part(recipe);
         if (plans > 0) {
-            const LaidPart part(recipe);
             plan_orientations(part, plans, measure, options, list);
             report.now.planned = part.support_volume(report.now.lay_on, options.threads, options.cancel);
         }
         report.best = differing(list, options.count);
+        measure_cups(part, recipe, options, report);
     });
     return report;
 }

@@ -34,6 +34,7 @@ struct Orientation {
     OrientationFigures figures;
     dvec3 lay_on{0};                  ///< for part.lay_on: the direction of the part that points down
     std::optional<double> planned{};  ///< material of planned supports, mm^3; empty where none were planned
+    std::optional<double> cups{};     ///< volume of suction cups, mm^3; empty where they do not matter
 };
 
 struct OrientReport {
@@ -46,8 +47,9 @@ struct OrientReport {
 /// Measures and searches orientations of the part's body on its machine, with pillars below overhangs. For
 /// few supports, those of the best by estimate are planned as for a solid body (on bridges if the recipe says
 /// so), and then those of neighbours of the best. For strength, ranks by whole percents of the loads across
-/// the layers, and what is equal by the estimate. A pure function of the recipe. Throws InputError when the
-/// body cannot be made, and for strength without a load; Interrupted when cancelled.
+/// the layers, and what is equal by the estimate. Measures the suction cups of the best on machines that
+/// check them. A pure function of the recipe. Throws InputError when the body cannot be made, and for
+/// strength without a load; Interrupted when cancelled.
 OrientReport orient_part(const Recipe& recipe, const OrientOptions& options);
 
 }  // namespace lamella

@@ -1,5 +1,6 @@
 // `lamella orient`: its list, and what it writes into recipes.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/commands/command_run.h"
@@ -49,6 +50,34 @@ TEST_CASE("orient lists orientations and writes one of them into the recipe", "[
     CHECK(again["now"]["estimated_supports_mm3"].get<double>() < 1);
     REQUIRE(run_lamella("orient --plan 0 --write 2 " + recipe).code == 0);
     CHECK(contents(recipe).find("lay_on") == contents(recipe).rfind("lay_on"));
+}
+
+TEST_CASE("orient tells of suction cups where a vat makes them", "[orientation]") {
+    const Folder folder;
+    // A pot: its hollow of 20 x 20 x 18 mm is a cup while it opens upward or to the bed.
+    write(folder / "pot.toml",
+          "[part]\nfield = \"pot\"\n[[field]]\nname = \"pot\"\nformula = \"max(max(abs(x) - 12, abs(y) - 12, "
+          "abs(z - 10) - 10), -max(abs(x) - 10, abs(y) - 10, 2 - z))\"\nbounds = [[-12, -12, 0], [12, 12, "
+          "20]]\n[layers]\nheight = 0.1\n");
+    const std::string orient = "orient --json --plan 0 --for height --count 6 " + folder / "pot.toml";
+    const Json report = Json::parse(run_lamella(orient + " --printer prusa-sl1s").out);
+    CHECK(report["now"]["cups_mm3"].get<double>() == Approx(20 * 20 * 18).epsilon(0.05));
+    int upright = 0, lying = 0;
+    for (const Json& one : report["best"]) {
+        const double cups = one["cups_mm3"].get<double>(), z = one["lay_on"][2].get<double>();
+        if (std::abs(z) > 0.999) {
+            CHECK(cups == Approx(20 * 20 * 18).epsilon(0.05));
+            ++upright;
+        } else if (std::abs(z) < 0.001) {
+            CHECK(cups == 0);
+            ++lying;
+        }
+    }
+    CHECK(upright > 0);
+    CHECK(lying > 0);
+    CHECK(Json::parse(run_lamella(orient + " --printer marlin").out)["now"]["cups_mm3"].is_null());
+    CHECK(
+        mentions(run_lamella("orient --plan 0 --printer prusa-sl1s " + folder / "pot.toml").out, "   cups"));
 }
 
 TEST_CASE("orient says what it cannot write", "[orientation]") {
