@@ -82,8 +82,9 @@ struct FieldRecipe {
 };
 
 /// The content of a region: solid, empty, or the part's foam or skin with other numbers. `blocker` keeps
-/// supports away; `enforcer` supports every overhang; `tool` changes the tool alone.
-enum class RegionMake : unsigned char { solid, empty, foam, skin, blocker, enforcer, tool };
+/// supports away; `enforcer` supports every overhang; `tool` changes the tool alone, `layers` the heights of
+/// layers.
+enum class RegionMake : unsigned char { solid, empty, foam, skin, blocker, enforcer, tool, layers };
 
 /// A part of the body with other content. Among regions with the same content, later ones win.
 struct RegionRecipe {
@@ -97,8 +98,9 @@ struct RegionRecipe {
     GradedNumber wall;
     GradedNumber window{-1.0, ""};
     GradedNumber modulus;
-    GradedNumber thickness;  ///< replaces the skin's thickness
-    std::string tool;        ///< name of a [[tool]] that makes what is in the region; empty: as around it
+    GradedNumber thickness;   ///< replaces the skin's thickness
+    std::string tool;         ///< name of a [[tool]] that makes what is in the region; empty: as around it
+    double layer_height = 0;  ///< of the layers that begin at the region's heights, mm; 0: as around it
 };
 
 /// A grading: a number that varies in space, which formulas use by its name.

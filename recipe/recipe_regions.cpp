@@ -75,10 +75,10 @@ void check_region(const Recipe& recipe, const RegionRecipe& region, std::vector<
                             region.where));
             return;
         }
-        if (numbers.empty() && region.tool.empty()) {
+        if (numbers.empty() && region.tool.empty() && region.layer_height == 0) {
             mistakes.push_back(
                 fmt::format("{}: sets no number of the foam; accepted: one or more of cell, beam, wall, "
-                            "window, modulus and tool",
+                            "window, modulus, tool and layer_height",
                             region.where));
         }
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/base/error.h"
 #include "engine/base/number_format.h"
@@ -31,6 +32,7 @@ class LayerSearch {
                              " mm or more");
         }
         end_ = static_cast<std::size_t>(std::ceil(height / grain_ - 1e-6));
+        for (const AdaptiveLimits::Band& band : limits.bands) set_band(band);
     }
 
     LayerPlan solve() {
@@ -66,12 +68,32 @@ class LayerSearch {
         return best_[i].cost + penalty_ * static_cast<double>(i - end_) / static_cast<double>(least_);
     }
 
+    /// Limits the layers that reach into a band.
+    void set_band(const AdaptiveLimits::Band& band) {
+        caps_.resize(end_, static_cast<std::uint32_t>(most_));
+        const auto nearest = [&](double z) {
+            return static_cast<std::size_t>(
+                std::clamp(std::round((z - bottom_) / grain_), 0.0, static_cast<double>(end_)));
+        };
+        const std::size_t most = std::clamp<std::size_t>(grains(band.most), 1, most_);
+        for (std::size_t i = nearest(band.z.lo); i < nearest(band.z.hi); ++i)
+            caps_[i] = static_cast<std::uint32_t>(most);
+    }
+
+    /// The greatest height of a layer that holds this grain.
+    std::size_t cap(std::size_t i) const { return i < caps_.size() ? caps_[i] : most_; }
+
     /// Tries all layers that begin at a height.
     void go_on_from(std::size_t i) {
         const double from = bottom_ + static_cast<double>(i) * grain_;
         const auto level = std::ranges::upper_bound(profile_.levels, from + grain_ / 2);
-        double flattest = profile_.flattest_in(from, from + static_cast<double>(least_ - 1) * grain_);
-        for (std::size_t h = least_; h <= most_; ++h) {
+        std::size_t most = cap(i);
+        const std::size_t least = std::min(least_, most);
+        double flattest = profile_.flattest_in(from, from + static_cast<double>(least - 1) * grain_);
+        for (std::size_t h = least; h <= most; ++h) {
+            // The least height may reach into a band as well: the way to its border may be shorter.
+            most = std::min(most, std::max(least, cap(i + h - 1)));
+            if (h > most) break;
             const double to = from + static_cast<double>(h) * grain_;
             flattest = std::max(flattest, profile_.flattest_in(to - grain_, to));
             const bool holds_level = level != profile_.levels.end() && *level < to - grain_ / 2;
@@ -92,6 +114,7 @@ class LayerSearch {
 
     const SlopeProfile& profile_;
     AdaptiveLimits limits_;
+    std::vector<std::uint32_t> caps_;  // greatest height of a layer by the grains that it holds; empty: most_
     double bottom_, grain_ = micrometre;
     std::size_t least_ = 1, most_ = 1, end_ = 1;  // grains
     std::vector<Way> best_;

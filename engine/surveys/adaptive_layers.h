@@ -1,6 +1,8 @@
 // Adaptive layers: heights that follow the slope of the surface.
 #pragma once
 
+#include <vector>
+
 #include "engine/surveys/slope_survey.h"
 
 namespace lamella {
@@ -9,6 +11,14 @@ namespace lamella {
 struct AdaptiveLimits {
     double least = 0.1, most = 0.3;  ///< heights of a layer
     double cusp = 0.1;               ///< largest distance between a layer's step and the surface
+    /// Heights over the solid's underside. Layers that begin there are at most this high, also where that is
+    /// less than `least`; those below reach into them by less than `least`. Of bands that overlap, the last
+    /// one holds.
+    struct Band {
+        Interval z;
+        double most = 0;
+    };
+    std::vector<Band> bands{};
 };
 
 /// Returns the fewest layers, from `bottom` over a solid's underside to its top, whose cusps are within the

@@ -22,12 +22,26 @@ namespace lamella {
 
 namespace {
 
+/// Returns the heights at which regions have layers of their own: those of what they hold of the part.
+std::vector<HeightBand> height_bands(const Recipe& recipe, const Job& outer, const BuiltRegions& regions) {
+    std::vector<HeightBand> bands;
+    for (const BuiltRegion& region : regions.list) {
+        if (region.layer_height == 0) continue;
+        const FieldPtr held = make_scaled(recipe, outer, make_intersection({region.field, outer.part}));
+        const Box box = held->bounds().empty() ? Box() : section_bounds(*held);
+        constexpr double beyond = 0.001;  // mm: by how much section_bounds() may enclose more
+        if (!box.empty()) bands.push_back({{box.lo.z, box.hi.z - beyond}, region.layer_height});
+    }
+    return bands;
+}
+
 /// Cuts the part into layers: the solid within its outer surface, as it will be scaled.
 void set_layers(const Recipe& recipe, const OptimizeOptions& optimizing, BuiltJob& built) {
     Job outer = built.designed;
     outer.part = built.outside;
-    built.layers = part_layers(recipe, make_scaled(recipe, outer, LayerPlan()),
-                               {optimizing.threads, {}, optimizing.cancel});
+    built.layers =
+        part_layers(recipe, make_scaled(recipe, outer, LayerPlan()),
+                    height_bands(recipe, outer, built.regions), {optimizing.threads, {}, optimizing.cancel});
     built.designed.layers = designed_layers(recipe, built.layers.plan);
 }
 

@@ -90,7 +90,7 @@ bool changes_numbers(const BuiltRegion& region) {
 
 /// Returns true for regions that leave the part's solid as it is.
 bool keeps_solid(const BuiltRegion& region) {
-    return changes_numbers(region) || region.make == RegionMake::tool;
+    return changes_numbers(region) || region.make == RegionMake::tool || region.make == RegionMake::layers;
 }
 
 /// Returns true for regions that only control supports, which stand outside the part.
@@ -106,7 +106,8 @@ void warn_of_idle(const FieldPtr& body, bool filled, BuiltRegions& regions) {
         const Box box = intersect(body->bounds(), grown(region.field->bounds(), reach));
         if (!find_solid_point(acted_on, box)) {
             regions.warnings.push_back(region.name + " does not touch the part and changes nothing");
-        } else if (region.make == RegionMake::solid && !filled && region.tool.empty()) {
+        } else if (region.make == RegionMake::solid && !filled && region.tool.empty() &&
+                   region.layer_height == 0) {
             regions.warnings.push_back(region.name + " is solid where the part is solid and changes nothing");
         }
     }
@@ -136,8 +137,13 @@ FieldPtr sequence(FieldPtr part, const FieldPtr& body, const BuiltRegions& regio
     return beyond_body ? make_intersection({body, std::move(part)}) : part;
 }
 
-std::string region_name(int number, const RegionRecipe& region) {
-    return fmt::format("region {} (`{}`)", number, region.field);
+BuiltRegion built_region(int number, const RegionRecipe& region, const FieldPtr& field) {
+    return {fmt::format("region {} (`{}`)", number, region.field),
+            region.make,
+            region.blend,
+            field,
+            region.tool,
+            region.layer_height};
 }
 
 bool has(const BuiltRegions& regions, RegionMake make) {
@@ -158,7 +164,7 @@ BuiltRegions build_regions(const Recipe& recipe, const Box& part, Gradings& grad
         ++number;
         if (which == WhichRegions::before_search && late.fields.contains(region.field)) continue;
         const FieldPtr field = fields.make(region);
-        built.list.push_back({region_name(number, region), region.make, region.blend, field, region.tool});
+        built.list.push_back(built_region(number, region, field));
         for (const RegionNumber& given : numbers_of(region)) {
             gradings.override_number(given.key, {field, region.blend, *given.number});
         }
@@ -173,7 +179,7 @@ BuiltRegions turned_regions(const Recipe& recipe, const Box& part, Gradings& gra
     int number = 0;
     for (const RegionRecipe& region : recipe.regions) {
         const FieldPtr field = fields.make(region);
-        built.list.push_back({region_name(++number, region), region.make, region.blend, field, region.tool});
+        built.list.push_back(built_region(++number, region, field));
     }
     return built;
 }

@@ -16,7 +16,8 @@ struct BuiltRegion {
     /// If `blend` is positive, its value is the distance to its surface or a bound of it; a formula's is
     /// divided by its greatest slope at the surface.
     FieldPtr field;
-    std::string tool{};  ///< name of the [[tool]] that makes what is in the region; empty: as around it
+    std::string tool{};       ///< name of the [[tool]] that makes what is in the region; empty: as around it
+    double layer_height = 0;  ///< mm; 0: as around it
 };
 
 struct BuiltRegions {

@@ -6,7 +6,7 @@ namespace lamella {
 
 const std::vector<std::string>& choice_names(RegionMake) {
     static const std::vector<std::string> list{"solid",   "empty",    "foam", "skin",
-                                               "blocker", "enforcer", "tool"};
+                                               "blocker", "enforcer", "tool", "layers"};
     return list;
 }
 
@@ -99,10 +99,10 @@ void add_region_settings(std::vector<Setting>& t) {
     add.operator()<&RegionRecipe::field>(
         "field", {.fallback = "required", .help = "Name of the [[field]] whose inside is the region."});
     add.operator()<&RegionRecipe::make>(
-        "make",
-        {.fallback = "required",
-         .help = "Content of the body in the region; foam and skin change numbers, tool the extruder "
-                 "alone. A blocker keeps supports away, an enforcer puts them under every overhang."});
+        "make", {.fallback = "required",
+                 .help = "Content of the body in the region; foam and skin change numbers, tool the extruder "
+                         "alone, layers their height alone. A blocker keeps supports away, an enforcer puts "
+                         "them under every overhang."});
     add.operator()<&RegionRecipe::blend>(
         "blend", {.unit = "mm",
                   .limits = {0, 1000},
@@ -128,6 +128,13 @@ void add_region_settings(std::vector<Setting>& t) {
     add.operator()<&RegionRecipe::tool>("tool",
                                         {.fallback = "required by tool; else as around the region",
                                          .help = "Name of the [[tool]] that makes what is in the region."});
+    add.operator()<&RegionRecipe::layer_height>(
+        "layer_height",
+        {.unit = "mm",
+         .limits = {0.001, 10},
+         .fallback = "required by layers; else as around the region",
+         .help = "Height of all layers that begin at the heights of the region's part of the body; with "
+                 "layers.cusp, their greatest height."});
 }
 
 }  // namespace lamella

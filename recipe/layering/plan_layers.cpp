@@ -21,13 +21,26 @@ struct HeightStep {
     double from, height;
 };
 
-/// Returns the steps of a recipe, the lowest first; the first begins at the bed.
-std::vector<HeightStep> steps_of(const LayersRecipe& layers) {
+Interval raised(const Interval& z, double by) { return {z.lo + by, z.hi + by}; }
+
+/// Replaces the steps between two heights over the bed by one.
+void set_band(std::vector<HeightStep>& steps, const Interval& z, double height) {
+    const auto above = std::ranges::find_if(steps, [&](const HeightStep& step) { return step.from > z.hi; });
+    const double height_above = std::prev(above)->height;
+    const auto first = std::ranges::find_if(steps, [&](const HeightStep& step) { return step.from >= z.lo; });
+    const auto place = steps.erase(first, above);
+    steps.insert(place, {HeightStep{z.lo, height}, HeightStep{z.hi, height_above}});
+}
+
+/// Returns the steps of a recipe, the lowest first; the first begins at the bed. Bands are given by their
+/// heights over the bed.
+std::vector<HeightStep> steps_of(const LayersRecipe& layers, const std::vector<HeightBand>& bands = {}) {
     std::vector<HeightStep> steps{{0, layers.height}};
     for (const std::vector<double>& row : layers.heights) {
         if (row[0] == 0) steps.clear();
         steps.push_back({row[0], row[1]});
     }
+    for (const HeightBand& band : bands) set_band(steps, band.z, band.height);
     if (layers.first > 0) {
         // What would begin within the first layer begins above it.
         while (steps.size() > 1 && steps[1].from <= layers.first) steps.erase(steps.begin());
@@ -66,12 +79,15 @@ LayerPlan layers_between(const std::vector<HeightStep>& steps, double from, doub
 }
 
 /// Returns layers that adapt to the surface, above a first one of its own.
-PartLayers adapted(const Recipe& recipe, const Job& printed, double from, const PassControl& control) {
+PartLayers adapted(const Recipe& recipe, const Job& printed, const std::vector<HeightBand>& bands,
+                   double from, const PassControl& control) {
     const LayersRecipe& layers = recipe.layers;
     AdaptiveLimits limits;
     limits.least = layers.least > 0 ? layers.least : layers.height / 2;
     limits.most = layers.most > 0 ? layers.most : 1.5 * layers.height;
     limits.cusp = layers.cusp;
+    for (const HeightBand& band : bands)
+        limits.bands.push_back({raised(band.z, -printed.bounds.lo.z), band.height});
     constexpr double rows = 256, finest_rows = 0.05;  // along a side; mm
     const dvec3 size = printed.bounds.size();
     SlopeSurveyOptions options;
@@ -99,12 +115,15 @@ LayerPlan lift_layers(const Recipe& recipe) {
     return layers_between(steps_of(recipe.layers), 0, lift, 0);
 }
 
-PartLayers part_layers(const Recipe& recipe, const Job& printed, const PassControl& control) {
+PartLayers part_layers(const Recipe& recipe, const Job& printed, const std::vector<HeightBand>& bands,
+                       const PassControl& control) {
     const double height = printed.bounds.size().z, from = lift_layers(recipe).total();
-    if (recipe.layers.cusp > 0) return adapted(recipe, printed, from, control);
+    if (recipe.layers.cusp > 0) return adapted(recipe, printed, bands, from, control);
+    std::vector<HeightBand> over_bed = bands;
+    for (HeightBand& band : over_bed) band.z = raised(band.z, from - printed.bounds.lo.z);
     // Masks that average several planes of a layer begin with the lowest of them.
     const double lowest_plane = 0.5 / std::max(1, recipe.printer.image.sub_layers);
-    return {layers_between(steps_of(recipe.layers), from, from + height, lowest_plane), {}};
+    return {layers_between(steps_of(recipe.layers, over_bed), from, from + height, lowest_plane), {}};
 }
 
 }  // namespace lamella

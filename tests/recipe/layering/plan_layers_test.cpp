@@ -1,6 +1,8 @@
 // Layers as recipes ask for them: first ones, lists, lifts, scales; and what makes no sense.
 #include "recipe/layering/plan_layers.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "tests/app/commands/recipes.h"
@@ -71,6 +73,62 @@ TEST_CASE("layers adapt to the outer surface", "[layers]") {
     const BuiltJob first = build_job(recipe_of(ball + "first = 0.25\n"));
     CHECK(first.job.layers.height(0) == 0.25);
     CHECK(first.job.layers.total() == Approx(12).margin(0.1));
+}
+
+namespace {
+
+/// A region of layers of their own, between two heights over the bed of parts whose middle lies at z = 0.
+std::string layers_region(const std::string& name, double lo, double hi, double height) {
+    return fmt::format(
+        "[[field]]\nname = \"{0}\"\nformula = \"max({1} - z, z - {2})\"\n"
+        "[[region]]\nfield = \"{0}\"\nmake = \"layers\"\nlayer_height = {3}\n",
+        name, lo - 5, hi - 5, height);
+}
+
+}  // namespace
+
+TEST_CASE("regions have layers of their own", "[layers][regions]") {
+    const std::string ten = ten_high + "[layers]\nheight = 0.2\n";
+    CHECK(plan_of(ten + layers_region("band", 4, 6, 0.1)) == LayerPlan({{20, 0.2}, {20, 0.1}, {20, 0.2}}));
+    // Beyond the part a region has none, and the later of two wins.
+    CHECK(plan_of(ten + layers_region("band", 6, 60, 0.1)) == LayerPlan({{30, 0.2}, {40, 0.1}}));
+    CHECK(plan_of(ten + layers_region("band", 2, 8, 0.1) + layers_region("in", 4, 6, 0.25)) ==
+          LayerPlan({{10, 0.2}, {20, 0.1}, {8, 0.25}, {20, 0.1}, {10, 0.2}}));
+    CHECK(plan_of(ten + layers_region("in", 4, 6, 0.25) + layers_region("band", 2, 8, 0.1)) ==
+          LayerPlan({{10, 0.2}, {60, 0.1}, {10, 0.2}}));
+    CHECK(plan_of(ten + layers_region("away", 20, 30, 0.1)) == LayerPlan(50, 0.2));
+    // A list of heights holds where no region does; a first layer everywhere.
+    CHECK(plan_of(ten + "heights = [[5, 0.25]]\nfirst = 0.4\n" + layers_region("band", 4, 8, 0.1)) ==
+          LayerPlan({{1, 0.4}, {18, 0.2}, {40, 0.1}, {8, 0.25}}));
+    // Only what a region holds of the part counts: a ball has none above its top.
+    const std::string ball = "[part]\nshape = \"sphere\"\nradius = 5\n[layers]\nheight = 0.2\n";
+    CHECK(plan_of(ball + layers_region("top", 9, 14, 0.1)) == LayerPlan({{45, 0.2}, {10, 0.1}}));
+    // Turned, regions stay where they are on the part.
+    CHECK(plan_of("[part]\nshape = \"box\"\nsize = [4, 4, 10]\nturn = [180, 0, 0]\n[layers]\nheight = 0.2\n" +
+                  layers_region("band", 0, 2, 0.1)) == LayerPlan({{40, 0.2}, {20, 0.1}}));
+}
+
+TEST_CASE("layers that adapt are at most as high as a region says", "[layers][regions]") {
+    const std::string adapting = ten_high + "[layers]\nheight = 0.2\ncusp = 0.1\nmost = 0.4\n";
+    CHECK(plan_of(adapting) == LayerPlan(25, 0.4));
+    const LayerPlan plan = plan_of(adapting + layers_region("band", 4, 6, 0.05));
+    for (int i = 0; i < plan.count(); ++i) {
+        INFO(plan.bottom(i) << " to " << plan.top(i));
+        const bool is_in = plan.bottom(i) > 4 - 1e-3 && plan.bottom(i) < 6 - 1e-3;
+        CHECK(plan.height(i) <= (is_in ? 0.05 : 0.4) + 1e-9);
+        if (is_in) CHECK(plan.height(i) > 0.04);
+    }
+    CHECK(plan.count() >= 10 + 40 + 10);
+    CHECK(plan.count() <= 10 + 41 + 10);
+}
+
+TEST_CASE("a region of layers says what it lacks", "[layers][regions]") {
+    const std::string field = "[[field]]\nname = \"a\"\nformula = \"z - 1\"\n";
+    CHECK(mentions(complaint_about(ten_high + field + "[[region]]\nfield = \"a\"\nmake = \"layers\"\n"),
+                   "layer_height"));
+    CHECK(mentions(complaint_about(ten_high + field +
+                                   "[[region]]\nfield = \"a\"\nmake = \"empty\"\nlayer_height = 0.1\n"),
+                   "layer_height"));
 }
 
 TEST_CASE("heights that make no sense are refused", "[layers]") {
