@@ -61,7 +61,10 @@ struct ResinProfile {
     double first_exposure = 25;  ///< exposure of the first layers, s
     int first_layers = 4;        ///< number of layers exposed like the first; SL1 machines always take 3
     int fade_layers = 10;        ///< layers over which the exposure then falls to `exposure`
-    double moves = 6;            ///< time of a layer besides its exposure, s
+    double penetration =
+        0;  ///< depth at which light has faded to 1/e, mm; exposures follow it; 0: they do not
+    double exposure_height = 0.05;  ///< height of the layers that the exposures are meant for, mm
+    double moves = 6;               ///< time of a layer besides its exposure, s
     double lift = 6;             ///< rise of the plate after each layer, mm; SL1 machines use their own value
     double lift_speed = 60;      ///< mm/min
     double retract_speed = 150;  ///< mm/min

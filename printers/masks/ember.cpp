@@ -38,7 +38,7 @@ class Ember : public Backend {
 
     int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
-        check_resin_profile(profile_.resin);
+        check_resin_profile(profile_.resin, job.layers.greatest_height());
         if (profile_.image.width != display_width || profile_.image.height != display_height) {
             throw InputError(
                 fmt::format("{} x {} px: an Ember's display has {} x {} px; choose the printer "
@@ -79,16 +79,15 @@ class Ember : public Backend {
   private:
     /// Returns the files before the slices.
     std::string settings(const Job& job) const {
-        const ResinProfile& resin = profile_.resin;
+        const double height = equal_layer_height(job.layers, range_, "an Ember archive");
+        const ResinProfile resin = resin_for_height(profile_.resin, height);
         // The first layer has its own exposure; "burn-in" layers are those after it.
-        const nlohmann::ordered_json settings = {
-            {"JobName", job.name},
-            {"LayerThicknessMicrons",
-             micrometres(equal_layer_height(job.layers, range_, "an Ember archive"))},
-            {"BurnInLayers", std::max(resin.first_layers - 1, 0)},
-            {"FirstExposureSec", resin.first_exposure},
-            {"BurnInExposureSec", resin.first_exposure},
-            {"ModelExposureSec", resin.exposure}};
+        const nlohmann::ordered_json settings = {{"JobName", job.name},
+                                                 {"LayerThicknessMicrons", micrometres(height)},
+                                                 {"BurnInLayers", std::max(resin.first_layers - 1, 0)},
+                                                 {"FirstExposureSec", resin.first_exposure},
+                                                 {"BurnInExposureSec", resin.first_exposure},
+                                                 {"ModelExposureSec", resin.exposure}};
         const nlohmann::ordered_json file = {{"Settings", settings}};
         std::string text =
             tar_member("printsettings",
@@ -97,7 +96,8 @@ class Ember : public Backend {
         if (first >= last) return text;
         std::string rows = "Layer,ModelExposureSec\r\n";
         for (int layer = first; layer < last; ++layer)
-            rows += fmt::format("{},{}\r\n", layer + 1, format_number(resin_exposure(resin, layer), 4));
+            rows += fmt::format("{},{}\r\n", layer + 1,
+                                format_number(resin_exposure(profile_.resin, layer, height), 4));
         return text + tar_member("layersettings.csv", rows);
     }
 

@@ -55,7 +55,7 @@ class Goo : public Backend {
 
     int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
-        check_resin_profile(resin_);
+        check_resin_profile(resin_, job.layers.greatest_height());
         layout_.emplace(profile_.image, job.bounds);
         layers_ = job.layers;
         range_ = range;
@@ -93,7 +93,7 @@ class Goo : public Backend {
         out.u16(0);  // no pause
         out.f32(0);
         out.f32(layers_.height(range_.first, layer.index() + 1));
-        out.f32(resin_exposure(resin_, index));
+        out.f32(resin_exposure(resin_, index, layer.thickness()));
         out.f32(0);  // light-off delay: replaced by the waits below
         put_waits(out);
         put_moves(out);
@@ -168,18 +168,19 @@ class Goo : public Backend {
         out.f32(swapped ? x : y);
         out.f32(layers_.height(range_.first, range_.last));
         out.f32(layers_.greatest_height());
-        out.f32(resin_.exposure);
+        // Readers that know one exposure alone take the longest.
+        out.f32(resin_for_height(resin_, layers_.greatest_height()).exposure);
         out.u8(1);   // waits are static
         out.f32(0);  // light-off delay
         put_waits(out);
         put_waits(out);
-        out.f32(resin_.first_exposure);
+        out.f32(resin_exposure(resin_, 0, layers_.height(range_.first)));
         out.u32(static_cast<std::uint32_t>(resin_.first_layers));
         put_header_moves(out);
         out.u16(resin_.light);
         out.u16(resin_.light);
         out.u8(1);  // each layer's own values apply
-        out.u32(static_cast<std::uint32_t>(resin_print_time(resin_, range_.count())));
+        out.u32(static_cast<std::uint32_t>(resin_print_time(resin_, layers_, range_)));
         out.f32(volume_);
         out.f32(volume_ / mm3_per_ml * profile_.support.density);
         out.f32(0);  // price

@@ -84,7 +84,7 @@ class NanoDlp : public Backend {
 
     int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
-        check_resin_profile(resin_);
+        check_resin_profile(resin_, job.layers.greatest_height());
         layout_.emplace(profile_.image, job.bounds);
         colors_ = png_colors(profile_.nanodlp.pixels);
         std::vector<std::byte> unused;
@@ -208,7 +208,8 @@ class NanoDlp : public Backend {
     }
 
     std::int64_t seconds() const {
-        return static_cast<std::int64_t>(std::ceil(resin_print_time(resin_, range_.count())));
+        return static_cast<std::int64_t>(
+            std::ceil(resin_print_time(resin_, LayerPlan(range_.last, layer_height_), range_)));
     }
 
     Json plate() const {
@@ -232,14 +233,15 @@ class NanoDlp : public Backend {
     Json depth() const { return number(layer_height_ * 1000, 1e3); }  // micrometres
 
     Json exposures() const {
+        const ResinProfile resin = resin_for_height(resin_, layer_height_);
         return {{"ResinID", 0},
                 {"ProfileID", 0},
                 {"Title", profile_.name},
                 {"Desc", resin_.material},
                 {"Depth", depth()},
                 {"SupportDepth", depth()},
-                {"CureTime", resin_.exposure},
-                {"SupportCureTime", resin_.first_exposure},
+                {"CureTime", resin.exposure},
+                {"SupportCureTime", resin.first_exposure},
                 {"SupportLayerNumber", resin_.first_layers},
                 {"TransitionalLayer", resin_.fade_layers},
                 {"WaitHeight", resin_.lift},

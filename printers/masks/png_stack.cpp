@@ -6,6 +6,7 @@
 #include "printers/archive/unfinished_folder.h"
 #include "printers/masks/image_encoder.h"
 #include "printers/masks/png_mask.h"
+#include "printers/masks/resin.h"
 
 namespace lamella {
 namespace {
@@ -25,11 +26,11 @@ class PngStack : public Backend {
         description_.update(describe_mask(profile_.image));
         description_["placement"] = placement();
         if (job.supports) description_["support_grey"] = profile_.support.grey;
-        description_.update(exposures());
+        description_.update(exposures(job.layers));
         const std::string settings =
             extension(profile_.image.format) +
             (" " + mask_settings(profile_, job, profile_.image.format == ImageFormat::png) + " " +
-             exposures().dump());
+             exposures(job.layers).dump());
         return output_.begin({job.identity, settings, range}, resume);
     }
 
@@ -79,13 +80,22 @@ class PngStack : public Backend {
                 {"row_step", band.across_pitch}};
     }
 
-    /// Returns the exposures, s: the first layers, a linear ramp, then all others.
-    nlohmann::ordered_json exposures() const {
+    /// Returns the exposures, s: the first layers, a linear ramp, then all others. Where they differ, they
+    /// are lists of [count, exposure], like the heights.
+    nlohmann::ordered_json exposures(const LayerPlan& layers) const {
         const ResinProfile& resin = profile_.resin;
+        const auto by_height = [&](double ResinProfile::*exposure) -> nlohmann::ordered_json {
+            if (layers.equal() || resin.penetration == 0)
+                return resin_for_height(resin, layers.least_height()).*exposure;
+            auto runs = nlohmann::ordered_json::array();
+            for (const EqualLayers& run : layers.runs())
+                runs.push_back({run.count, resin_for_height(resin, run.height).*exposure});
+            return runs;
+        };
         return {{"first_layers", resin.first_layers},
-                {"first_exposure", resin.first_exposure},
+                {"first_exposure", by_height(&ResinProfile::first_exposure)},
                 {"fade_layers", resin.fade_layers},
-                {"exposure", resin.exposure}};
+                {"exposure", by_height(&ResinProfile::exposure)}};
     }
 
     PrinterProfile profile_;

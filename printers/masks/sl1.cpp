@@ -64,13 +64,14 @@ class Sl1 : public Backend {
     int open(const Job& job, LayerRange range, bool resume) override {
         check_range(job, range);
         layout_.emplace(profile_.image, job.bounds);
-        check_resin_profile(profile_.resin);
+        check_resin_profile(profile_.resin, job.layers.greatest_height());
         if (range.count() > max_sl1_layers) {
             throw InputError(fmt::format("{} layers are too many for an SL1 archive; accepted: {} or fewer",
                                          range.count(), max_sl1_layers));
         }
         folder_ = job_folder(job.name);
         check_layer_heights(LayerHeights::first, job.layers, range, "an SL1 archive");
+        layers_ = job.layers;
         first_height_ = job.layers.height(range.first);
         layer_height_ = job.layers.height(range.last - 1);
         range_ = range;
@@ -119,10 +120,12 @@ class Sl1 : public Backend {
   private:
     Sl1Description for_machine() const {
         const ResinProfile& r = profile_.resin;
+        const double exposure = resin_for_height(r, layer_height_).exposure;
+        const double first_exposure = resin_for_height(r, first_height_).first_exposure;
         constexpr double ml = 1000;  // mm^3
         return {{"action", "print"},
-                {"expTime", format_number(r.exposure, 4)},
-                {"expTimeFirst", format_number(r.first_exposure, 4)},
+                {"expTime", format_number(exposure, 4)},
+                {"expTimeFirst", format_number(first_exposure, 4)},
                 {"expUserProfile", "0"},
                 {"fileCreationTimestamp", "1980-01-01 at 00:00:00 UTC"},
                 {"hollow", "0"},
@@ -134,7 +137,7 @@ class Sl1 : public Backend {
                 {"numFast", std::to_string(range_.count())},
                 {"numSlow", "0"},
                 {"printProfile", format_number(layer_height_, 6) + " Lamella"},
-                {"printTime", format_number(resin_print_time(r, range_.count()), 3)},
+                {"printTime", format_number(resin_print_time(r, layers_, range_), 3)},
                 {"printerModel", one_line(machine_name(profile_))},
                 {"printerProfile", one_line(profile_.name)},
                 {"printerVariant", "default"},
@@ -150,26 +153,27 @@ class Sl1 : public Backend {
         const auto flag = [](bool value) { return std::string(value ? "1" : "0"); };
         const bool mirror_x = image.portrait != image.mirror_x;
         const std::string layer = format_number(layer_height_, 6);
-        return {{"display_height", format_number(image.height * image.pixel_y, 6)},
-                {"display_mirror_x", flag(mirror_x)},
-                {"display_mirror_y", flag(image.mirror_y)},
-                {"display_orientation", image.portrait ? "portrait" : "landscape"},
-                {"display_pixels_x", std::to_string(image.width)},
-                {"display_pixels_y", std::to_string(image.height)},
-                {"display_width", format_number(image.width * image.pixel_x, 6)},
-                {"exposure_time", format_number(r.exposure, 4)},
-                {"faded_layers", std::to_string(r.fade_layers)},
-                {"gamma_correction",
-                 image.antialiasing == Antialiasing::off ? "0" : format_number(image.gamma, 4)},
-                {"initial_exposure_time", format_number(r.first_exposure, 4)},
-                {"initial_layer_height", format_number(first_height_, 6)},
-                {"layer_height", layer},
-                {"material_notes", notes_},
-                {"max_print_height", format_number(height_, 6)},
-                {"printer_model", one_line(machine_name(profile_))},
-                {"printer_notes", one_line(r.notes)},
-                {"printer_settings_id", one_line(profile_.name)},
-                {"printer_technology", "SLA"}};
+        return {
+            {"display_height", format_number(image.height * image.pixel_y, 6)},
+            {"display_mirror_x", flag(mirror_x)},
+            {"display_mirror_y", flag(image.mirror_y)},
+            {"display_orientation", image.portrait ? "portrait" : "landscape"},
+            {"display_pixels_x", std::to_string(image.width)},
+            {"display_pixels_y", std::to_string(image.height)},
+            {"display_width", format_number(image.width * image.pixel_x, 6)},
+            {"exposure_time", format_number(resin_for_height(r, layer_height_).exposure, 4)},
+            {"faded_layers", std::to_string(r.fade_layers)},
+            {"gamma_correction",
+             image.antialiasing == Antialiasing::off ? "0" : format_number(image.gamma, 4)},
+            {"initial_exposure_time", format_number(resin_for_height(r, first_height_).first_exposure, 4)},
+            {"initial_layer_height", format_number(first_height_, 6)},
+            {"layer_height", layer},
+            {"material_notes", notes_},
+            {"max_print_height", format_number(height_, 6)},
+            {"printer_model", one_line(machine_name(profile_))},
+            {"printer_notes", one_line(r.notes)},
+            {"printer_settings_id", one_line(profile_.name)},
+            {"printer_technology", "SLA"}};
     }
 
     PrinterProfile profile_;
@@ -179,6 +183,7 @@ class Sl1 : public Backend {
     std::optional<MaskLayout> layout_;
     std::function<Picture(int)> picture_;
     std::string folder_, notes_;
+    LayerPlan layers_;
     double first_height_ = 0, layer_height_ = 0, height_ = 0;  ///< mm
     LayerRange range_;
     double volume_ = 0;  ///< mm^3

@@ -113,6 +113,18 @@ void add_resin(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.first_exposure; }>(
         "printer", "first_exposure", "--printer-first-exposure",
         {.unit = "s", .limits = {0.01, 1000}, .help = "Exposure of the first layers."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.penetration; }>(
+        "printer", "penetration", "--printer-penetration",
+        {.unit = "mm",
+         .limits = {0, 10},
+         .help =
+             "Depth at which light has faded to 1/e in the resin: a layer that is higher by this is exposed "
+             "e times as long. 0: all layers have the same exposure."}));
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.exposure_height; }>(
+        "printer", "exposure_height", "--printer-exposure-height",
+        {.unit = "mm",
+         .limits = {0.001, 10},
+         .help = "Height of the layers that the exposures are meant for; others follow by penetration."}));
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.first_layers; }>(
         "printer", "first_layers", "--printer-first-layers",
         {.unit = "layers",

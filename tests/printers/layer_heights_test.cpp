@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -10,6 +11,7 @@
 #include "printers/gcode/gcode.h"
 #include "printers/masks/goo.h"
 #include "printers/masks/png_stack.h"
+#include "printers/masks/resin.h"
 #include "printers/masks/sl1.h"
 #include "printers/readers/read_job.h"
 #include "printers/registry.h"
@@ -157,6 +159,93 @@ TEST_CASE("contours and masks are told with their heights", "[layers]") {
         CHECK(values_after(config, "layerHeight = ") == std::vector<double>{0.05});
         CHECK(values_after(config, "layerHeightFirst = ") == std::vector<double>{0.1});
         CHECK(open_job(folder / "a.sl1")->facts().heights == first);
+    }
+}
+
+namespace {
+
+/// A resin in which light fades to 1/e over 0.1 mm, with 2 s for layers of 0.1 mm.
+PrinterProfile fading(const std::string& name) {
+    PrinterProfile profile = machine(name);
+    profile.resin.exposure = 2;
+    profile.resin.first_exposure = 20;
+    profile.resin.first_layers = 2;
+    profile.resin.fade_layers = 1;
+    profile.resin.penetration = 0.1;
+    profile.resin.exposure_height = 0.1;
+    return profile;
+}
+
+double factor(double height) { return std::exp((height - 0.1) / 0.1); }
+
+}  // namespace
+
+TEST_CASE("exposures follow the heights of layers where a resin's penetration is known", "[layers]") {
+    const TemporaryFolder folder;
+    // Two first layers, one halfway between 20 and 2 s, and the others.
+    const auto expected = [](int layer) {
+        return (layer < 2 ? 20 : layer == 2 ? 11 : 2) * factor(varied.height(layer));
+    };
+    SECTION("print times") {
+        const PrinterProfile profile = fading("elegoo-mars-4-ultra");
+        for (const LayerRange range : {LayerRange{0, 10}, LayerRange{1, 9}, LayerRange{4, 5}}) {
+            double seconds = 0;
+            for (int i = range.first; i < range.last; ++i)
+                seconds +=
+                    resin_exposure(profile.resin, i - range.first, varied.height(i)) + profile.resin.moves;
+            CHECK(resin_print_time(profile.resin, varied, range) == Approx(seconds));
+        }
+        for (int i = 0; i < 10; ++i)
+            CHECK(resin_exposure(profile.resin, i, varied.height(i)) == Approx(expected(i)));
+        // What is meant for layers of 0.1 mm holds for them.
+        CHECK(resin_exposure(profile.resin, 5, 0.1) == Approx(2));
+        ResinProfile even = profile.resin;
+        even.penetration = 0;
+        CHECK(resin_exposure(even, 5, 0.3) == 2);
+    }
+    SECTION("GOO, layer by layer") {
+        PrinterProfile profile = fading("elegoo-mars-4-ultra");
+        profile.image.width = profile.image.height = 800;
+        run_layers(frustum(), *make_goo(profile, folder / "a.goo", false), {0, 10});
+        const std::string bytes = read_text(folder / "a.goo");
+        const auto word_at = [&](std::size_t at) {
+            std::uint32_t word = 0;
+            for (std::size_t k = 0; k < 4; ++k)
+                word = word << 8U | static_cast<unsigned char>(bytes.at(at + k));
+            return word;
+        };
+        std::size_t at = goo_header_size;
+        for (int i = 0; i < 10; ++i) {
+            CHECK(std::bit_cast<float>(word_at(at + 10)) == Approx(expected(i)));
+            at += 66 + 4 + word_at(at + 66) + 2;
+        }
+    }
+    SECTION("a stack of PNG, by runs of layers") {
+        run_layers(frustum(), *make_png_stack(fading("generic-4k"), folder / "png", false), {0, 10});
+        const auto json = nlohmann::json::parse(read_text(folder / "png/job.json"));
+        REQUIRE(json["exposure"].size() == 4);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const EqualLayers run = varied.runs()[i];
+            CHECK(json["exposure"][i][0] == run.count);
+            CHECK(json["exposure"][i][1].get<double>() == Approx(2 * factor(run.height)));
+            CHECK(json["first_exposure"][i][1].get<double>() == Approx(20 * factor(run.height)));
+        }
+        CHECK_NOTHROW(open_job(folder / "png"));
+    }
+    SECTION("SL1, with a first layer of its own") {
+        const LayerPlan first({{1, 0.1}, {34, 0.05}});
+        run_layers(frustum(first), *make_sl1(fading("prusa-sl1s"), folder / "a.sl1", false), {0, 35});
+        std::string config;
+        for (const auto& [name, text] : read_zip(folder / "a.sl1"))
+            if (name == "config.ini") config = text;
+        CHECK(values_after(config, "expTime = ").at(0) == Approx(2 * factor(0.05)).margin(1e-4));
+        CHECK(values_after(config, "expTimeFirst = ").at(0) == Approx(20));
+    }
+    SECTION("too long ones are refused") {
+        PrinterProfile profile = fading("elegoo-mars-4-ultra");
+        profile.resin.penetration = 0.01;
+        CHECK_THROWS_WITH(make_goo(profile, folder / "a.goo", false)->open(frustum(), {0, 10}, false),
+                          Catch::Contains("exposure of a layer of 0.3 mm (s)"));
     }
 }
 
