@@ -136,6 +136,7 @@ Json regions_json(const Recipe& recipe, const BuiltRegions& regions) {
                         {"blend_mm", region.blend}});
         for (const RegionNumber& given : numbers_of(region))
             json.back()[given.key] = graded_json(*given.number);
+        if (region.layer_height > 0) json.back()["layer_height_mm"] = region.layer_height;
     }
     return json;
 }
@@ -237,8 +238,13 @@ std::string grading_text(const Json& grading) {
 }
 
 std::string region_text(const Json& region) {
-    std::string text = fmt::format("region    `{}` is {}", region["field"].get<std::string>(),
-                                   region["make"].get<std::string>());
+    const std::string make = region["make"].get<std::string>();
+    std::string text = fmt::format("region    `{}` {} {}", region["field"].get<std::string>(),
+                                   make == "layers" ? "has" : "is", make);
+    if (region.contains("layer_height_mm")) {
+        text += fmt::format("{} {} mm", make == "layers" ? " of" : ", in layers of",
+                            region["layer_height_mm"].get<double>());
+    }
     for (const auto& [key, number] : region.items()) {
         if (key.find('.') != std::string::npos) text += fmt::format(", {} {}", key, graded_text(number));
     }

@@ -168,8 +168,9 @@ class Goo : public Backend {
         out.f32(swapped ? x : y);
         out.f32(layers_.height(range_.first, range_.last));
         out.f32(layers_.greatest_height());
-        // Readers that know one exposure alone take the longest.
-        out.f32(resin_for_height(resin_, layers_.greatest_height()).exposure);
+        // For readers that know one exposure alone; each layer has its own.
+        const double usual_height = layers_.height(range_.first + range_.count() / 2);
+        out.f32(resin_for_height(resin_, usual_height).exposure);
         out.u8(1);   // waits are static
         out.f32(0);  // light-off delay
         put_waits(out);
