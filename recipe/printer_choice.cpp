@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "recipe/settings.h"
+#include "recipe/toml_value.h"
 
 namespace lamella {
 
@@ -56,26 +57,6 @@ std::string profile_line(const MachineProfiles& profiles, const std::string& nam
     }
 }
 
-std::string toml_quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + "\"";
-}
-
-/// Formats a text as a TOML array of its lines.
-std::string quoted_lines(std::string_view text) {
-    std::string out;
-    for (std::size_t at = 0; at <= text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size());
-        out += (at > 0 ? ", " : "") + toml_quoted(std::string(text.substr(at, end - at)));
-        at = end + 1;
-    }
-    return "[" + out + "]";
-}
-
 /// Returns false for keys that repeat others, and for keys that belong to recipes alone.
 bool is_written(const Setting& setting) {
     return !belongs_in_recipe(setting) && setting.name() != "printer.pixel" &&
@@ -84,14 +65,9 @@ bool is_written(const Setting& setting) {
 
 std::string setting_line(const Setting& setting, const Recipe& recipe) {
     const Value value = setting.load(recipe, 0);
-    const bool is_text = std::holds_alternative<std::string>(value);
-    const auto* table = std::get_if<NumberRows>(&value);
-    const std::string text = table != nullptr && table->empty() ? "[]" : format_value(value);
+    const std::string literal = toml_literal(setting, value);
     // An empty text or table is written as a comment, to be filled in.
-    const bool is_empty = text.empty() || text == "[]";
-    const std::string literal = setting.type == ValueType::lines && !is_empty ? quoted_lines(text)
-                                : is_text                                     ? toml_quoted(text)
-                                                                              : text;
+    const bool is_empty = literal == "\"\"" || literal == "[]";
     const std::string assignment = fmt::format("{}{} = {}", is_empty ? "# " : "", setting.key, literal);
     return fmt::format("{:<31} # {}{}\n", assignment, setting.unit.empty() ? "" : setting.unit + ": ",
                        setting.help);

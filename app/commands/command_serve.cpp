@@ -1,4 +1,4 @@
-// `lamella serve`: answers other programs through a pipe.
+// `lamella serve`: answers other programs through a pipe, or by HTTP.
 #include <fmt/format.h>
 
 #include <array>
@@ -7,6 +7,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/recipe_options.h"
+#include "app/commands/server_options.h"
+#include "app/console/interrupt.h"
 #include "app/console/text_output.h"
 #include "app/reports/section_server.h"
 #include "engine/base/error.h"
@@ -61,22 +63,47 @@ void run() {
     out.close();
 }
 
+struct ServeCommand {
+    bool stdio = false, http = false;
+    ServerFlags server;
+};
+
+void run_http(const ServerFlags& flags) {
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    serve_http(server_options(flags), cancel, [](const std::string& address) {
+        std::fputs((address + "\n").c_str(), stdout);
+        std::fflush(stdout);
+    });
+}
+
 }  // namespace
 
 void add_serve_command(CLI::App& root) {
-    CLI::App& command =
-        *root.add_subcommand("serve", "Answer requests of another program for sections, through a pipe");
-    auto stdio = std::make_shared<bool>(false);
-    command
-        .add_flag("--stdio", *stdio, "Read requests from standard input, write replies to standard output")
-        ->required();
+    CLI::App& command = *root.add_subcommand(
+        "serve", "Answer requests of other programs for jobs and layers, through a pipe or by HTTP");
+    auto options = std::make_shared<ServeCommand>();
+    CLI::Option* stdio = command.add_flag(
+        "--stdio", options->stdio, "Read requests from standard input, write replies to standard output");
+    command.add_flag("--http", options->http, "Listen for HTTP, and print the address with its token")
+        ->excludes(stdio);
+    add_server_options(command, options->server);
     finish_command(command,
                    "  lamella serve --stdio\n"
+                   "  lamella serve --http --port 8080 --folder models\n"
                    "A request is its length (4 bytes, little-endian) followed by that many bytes of JSON. A "
                    "reply has the\n"
                    "same form, followed by `bytes` bytes of numbers. docs/embedding/server.md describes the "
-                   "methods.");
-    command.callback([] { run(); });
+                   "methods, docs/embedding/http.md the interface by HTTP.");
+    command.callback([options] {
+        if (options->http) {
+            run_http(options->server);
+        } else if (options->stdio) {
+            run();
+        } else {
+            throw InputError("serve: accepted: --stdio or --http");
+        }
+    });
 }
 
 }  // namespace lamella

@@ -23,6 +23,7 @@ void add_orient_command(CLI::App& root);
 void add_check_command(CLI::App& root);
 void add_section_command(CLI::App& root);
 void add_serve_command(CLI::App& root);
+void add_studio_command(CLI::App& root);
 void add_homogenize_command(CLI::App& root);
 void add_optimize_command(CLI::App& root);
 void add_analyze_command(CLI::App& root);

@@ -75,6 +75,7 @@ int run_command(const std::vector<std::string>& arguments) {
         add_supports_command(root);
         add_check_command(root);
         add_serve_command(root);
+        add_studio_command(root);
         add_homogenize_command(root);
         add_optimize_command(root);
         add_analyze_command(root);

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
-#include "engine/contours/coverage.h"
+#include "app/reports/grey_page.h"
 #include "engine/field/slice_context.h"
 #include "engine/io/image_file.h"
 
@@ -38,26 +38,6 @@ RowBand page_band(const Rect& page, const ImageProfile& image) {
     band.hi = pixels(size.x, image.pixel_x);
     band.count = pixels(size.y, image.pixel_y);
     return band;
-}
-
-/// Renders all rows in bands of 64.
-std::vector<std::uint8_t> grey_page(const SliceField& slice, const RowBand& page, bool antialiased) {
-    constexpr int rows_at_once = 64;
-    std::vector<std::uint8_t> grey;
-    grey.reserve(static_cast<std::size_t>(page.hi) * static_cast<std::size_t>(page.count));
-    Scratch scratch;
-    RunRows rows;
-    std::vector<GreyRun> runs;
-    for (RowBand band = page; band.first < page.count; band.first += rows_at_once) {
-        band.count = std::min(rows_at_once, page.count - band.first);
-        rows.clear();
-        runs.clear();
-        slice.runs(band, scratch, rows);
-        antialiased ? coverage(band, rows, runs) : threshold(band, rows, runs);
-        for (const GreyRun& run : runs)
-            grey.insert(grey.end(), run.length, static_cast<std::uint8_t>(run.value));
-    }
-    return grey;
 }
 
 std::vector<Contour> traced(const SliceField& slice, double tolerance) {

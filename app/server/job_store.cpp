@@ -1,0 +1,72 @@
+// Keeps the jobs used last, and one build a session.
+#include "app/server/job_store.h"
+
+#include <algorithm>
+
+#include "app/server/http_server.h"
+
+namespace lamella {
+
+std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::int64_t sequence) {
+    constexpr std::size_t most_sessions = 64;
+    const std::lock_guard lock(mutex_);
+    if (builds_.size() >= most_sessions && !builds_.contains(session))
+        std::erase_if(builds_, [](const auto& item) { return item.second.cancel.use_count() == 1; });
+    if (builds_.size() >= most_sessions && !builds_.contains(session))
+        throw HttpError(503, "too many sessions build at once");
+    Build& build = builds_[session];
+    if (build.cancel && sequence < build.sequence) throw Interrupted("a newer recipe of this session came");
+    if (build.cancel) build.cancel->cancel();
+    build = {sequence, std::make_shared<CancelToken>()};
+    return build.cancel;
+}
+
+std::shared_ptr<const ServedJob> JobStore::held(const std::string& id) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find(jobs_, id, [](const auto& job) { return job->id; });
+    if (found == jobs_.end()) return nullptr;
+    jobs_.splice(jobs_.begin(), jobs_, found);
+    return jobs_.front();
+}
+
+void JobStore::hold(std::shared_ptr<const ServedJob> job) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(jobs_, [&](const auto& other) { return other->id == job->id; });
+    jobs_.push_front(std::move(job));
+    if (jobs_.size() > most_) jobs_.pop_back();
+}
+
+std::shared_ptr<const ServedJob> JobStore::build(const std::string& text, const std::string& session,
+                                                 std::int64_t sequence) {
+    const std::shared_ptr<CancelToken> cancel = begin(session, sequence);
+    if (auto job = held(served_job_id(read_served_recipe(text, folder_), text))) return job;
+    BuildControl control;
+    control.threads = threads_;
+    control.cancel = cancel.get();
+    control.on_progress = [&](const std::string& what, std::int64_t done, std::int64_t of) {
+        events_.send(session, "progress",
+                     {{"what", "build"}, {"id", nullptr}, {"done", done}, {"of", of}, {"text", what}});
+    };
+    auto job = build_served_job(text, folder_, control);
+    stop_if_cancelled(cancel.get());
+    hold(job);
+    return job;
+}
+
+std::shared_ptr<const ServedJob> JobStore::find(const std::string& id) {
+    if (auto job = held(id)) return job;
+    throw HttpError(404, "this job is not held, or not any more; accepted: POST its recipe to /api/jobs");
+}
+
+void JobStore::forget(const std::string& id) {
+    find(id);
+    const std::lock_guard lock(mutex_);
+    std::erase_if(jobs_, [&](const auto& job) { return job->id == id; });
+}
+
+void JobStore::cancel_all() {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [session, build] : builds_) build.cancel->cancel();
+}
+
+}  // namespace lamella

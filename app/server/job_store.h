@@ -1,0 +1,50 @@
+// JobStore: the jobs that a server holds, and those that it is building.
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "app/server/event_hub.h"
+#include "app/server/served_job.h"
+
+namespace lamella {
+
+/// Holds the jobs that were used last, `most` of them. Thread-safe. Jobs in use outlive their place here.
+class JobStore {
+  public:
+    JobStore(const ServedFolder& folder, EventHub& events, int threads, std::size_t most)
+        : folder_(folder), events_(events), threads_(threads), most_(most) {}
+
+    /// Returns the job of a recipe's text; builds it if it is not held. Progress goes to the session. A build
+    /// of the session with a lower number is cancelled. Throws RecipeMistakes, and Interrupted when a build
+    /// with a higher number came.
+    std::shared_ptr<const ServedJob> build(const std::string& text, const std::string& session,
+                                           std::int64_t sequence);
+    /// Throws HttpError 404 for a job that is not held.
+    std::shared_ptr<const ServedJob> find(const std::string& id);
+    void forget(const std::string& id);
+    /// Cancels all builds.
+    void cancel_all();
+
+  private:
+    struct Build {
+        std::int64_t sequence = 0;
+        std::shared_ptr<CancelToken> cancel;
+    };
+    std::shared_ptr<CancelToken> begin(const std::string& session, std::int64_t sequence);
+    std::shared_ptr<const ServedJob> held(const std::string& id);
+    void hold(std::shared_ptr<const ServedJob> job);
+
+    const ServedFolder& folder_;
+    EventHub& events_;
+    int threads_;
+    std::size_t most_;
+    std::mutex mutex_;
+    std::list<std::shared_ptr<const ServedJob>> jobs_;  // the one used last first
+    std::map<std::string, Build> builds_;               // the latest of each session
+};
+
+}  // namespace lamella

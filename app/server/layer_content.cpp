@@ -1,0 +1,222 @@
+// Cuts layers as they are asked for; nothing is kept.
+#include "app/server/layer_content.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "app/reports/grey_page.h"
+#include "app/server/http_server.h"
+#include "engine/base/parallel.h"
+#include "engine/field/slice_context.h"
+#include "printers/common/thumbnail.h"
+#include "printers/gcode/gcode_roles.h"
+#include "printers/gcode/layer_beads.h"
+#include "printers/registry.h"
+#include "recipe/build/json_triple.h"
+
+namespace lamella {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+using Color = std::array<double, 3>;
+constexpr Color ground{16, 20, 24}, part_color{223, 232, 242}, support_color{89, 143, 204};
+
+/// Returns the rows of square pixels that cover a rectangle, the first at its largest y.
+RowBand page_of(const Rect& rect, double pixel, int sub) {
+    RowBand band;
+    band.along_origin = rect.lo.x;
+    band.along_pitch = pixel;
+    band.across_origin = rect.hi.y;
+    band.across_pitch = -pixel;
+    band.sub = sub;
+    band.hi = std::max(1, static_cast<int>(std::lround(rect.size().x / pixel)));
+    band.count = std::max(1, static_cast<int>(std::lround(rect.size().y / pixel)));
+    return band;
+}
+
+Layer layer_of(const ServedJob& job, int layer) { return Layer(job.job(), layer); }
+
+template <typename T>
+void append(std::string& bytes, T value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);  // NOLINT: little-endian, as every machine that this runs on
+    bytes.append(raw, sizeof value);
+}
+
+/// Returns a head of JSON with its length before it.
+std::string headed(const Json& head) {
+    const std::string text = head.dump();
+    std::string bytes;
+    append(bytes, static_cast<std::uint32_t>(text.size()));
+    return bytes + text;
+}
+
+/// Mixes two colours into the ground, by the shares that they cover.
+Color mixed(double part, double supports) {
+    Color color{};
+    const double rest = std::max(0.0, 1 - part - supports), sum = std::max(1.0, part + supports);
+    for (std::size_t c = 0; c < 3; ++c)
+        color[c] = rest * ground[c] + (part * part_color[c] + supports * support_color[c]) / sum;
+    return color;
+}
+
+const SliceField* slice_of(const Layer& layer, bool of_supports) {
+    return of_supports ? layer.supports() : &layer.part();
+}
+
+/// Returns the area that a slice covers of a page, mm^2.
+double area_of(const SliceField* slice, const RowBand& page) {
+    if (slice == nullptr) return 0;
+    Scratch scratch;
+    RunRows rows;
+    slice->runs(page, scratch, rows);
+    return static_cast<double>(rows.total_length()) / run_unit * page.along_pitch *
+           std::abs(page.line_pitch());
+}
+
+Json path_of(const Bead& bead, int tool, const PrinterProfile& printer, bool is_first) {
+    Json points = Json::array();
+    for (const dvec2& p : bead.points) {
+        points.push_back(std::round(p.x * 1e4) / 1e4);
+        points.push_back(std::round(p.y * 1e4) / 1e4);
+    }
+    return {{"role", role_name(bead)}, {"tool", std::max(tool, 0)},
+            {"width", bead.width},     {"speed", role_speed(printer, bead, is_first)},
+            {"closed", bead.closed},   {"points", std::move(points)}};
+}
+
+}  // namespace
+
+std::string layer_picture(const ServedJob& job, int layer, const LayerWindow& window, bool in_colours) {
+    constexpr double most_pixels = 1 << 26;
+    const double pixel = window.rect.size().x / window.width;
+    const RowBand page = page_of(window.rect, pixel, 4);
+    if (static_cast<double>(page.hi) * page.count > most_pixels)
+        throw HttpError(400, "the picture would be too large; accepted: a smaller width or window");
+    const Layer cut = layer_of(job, layer);
+    const std::vector<std::uint8_t> part = grey_page(cut.part(), page, true);
+    const std::vector<std::uint8_t> supports =
+        cut.supports() != nullptr ? grey_page(*cut.supports(), page, true) : std::vector<std::uint8_t>();
+    Picture picture{page.hi, page.count, {}};
+    picture.rgb.reserve(3 * part.size());
+    const double grey = job.recipe.printer.support.grey;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const double other = supports.empty() ? 0 : supports[i];
+        const double value = std::max<double>(part[i], grey * other);
+        const Color color = in_colours ? mixed(part[i] / 255.0, other / 255.0) : Color{value, value, value};
+        for (const double channel : color)
+            picture.rgb.push_back(static_cast<std::uint8_t>(std::lround(std::min(channel, 255.0))));
+    }
+    return png_file(picture);
+}
+
+std::string layer_runs(const ServedJob& job, int layer, const RowBand& band, bool of_supports) {
+    const Layer cut = layer_of(job, layer);
+    const SliceField* slice = slice_of(cut, of_supports);
+    Scratch scratch;
+    RunRows rows;
+    if (slice != nullptr) slice->runs(band, scratch, rows);
+    const std::size_t lines = rows.lines();
+    std::string bytes = headed({{"lines", lines}, {"runs", rows.runs().size()}, {"z", cut.z()}});
+    std::uint32_t first = 0;
+    append(bytes, first);
+    for (std::size_t l = 0; l < lines; ++l)
+        append(bytes, first += static_cast<std::uint32_t>(rows.line(l).size()));
+    for (const Run& run : rows.runs()) {
+        append(bytes, run.begin);
+        append(bytes, run.end);
+    }
+    return bytes;
+}
+
+Json layer_contours(const ServedJob& job, int layer, double tolerance, bool of_supports) {
+    const Layer cut = layer_of(job, layer);
+    Json list = Json::array();
+    double area = 0;
+    for (const Contour& contour : of_supports ? cut.support_contours(tolerance) : cut.contours(tolerance)) {
+        area += signed_area(contour.points);
+        Json points = Json::array();
+        for (const dvec2& p : contour.points) {
+            points.push_back(p.x);
+            points.push_back(p.y);
+        }
+        list.push_back({{"parent", contour.parent}, {"points", std::move(points)}});
+    }
+    return {{"contours", std::move(list)}, {"area", area}, {"z", cut.z()}};
+}
+
+Json layer_paths(const ServedJob& job, int layer) {
+    const PrinterProfile& printer = job.recipe.printer;
+    if (find_backend(printer.backend).content != LayerContent::beads)
+        throw HttpError(400, printer.name + " lays no beads; accepted: machines for filament");
+    const Layer cut = layer_of(job, layer);
+    const LayerBeads beads(job.job(), printer);
+    Json paths = Json::array();
+    for (const ToolBeads& tool : beads.plan(cut, ObjectLabels()).beads) {
+        if (tool.when == LaidWhen::tool_changed) continue;  // depends on the layers before
+        for (const Bead& bead : tool.paths.beads)
+            paths.push_back(path_of(bead, tool.tool, printer, cut.level() == 0));
+    }
+    return {{"paths", std::move(paths)}, {"z", cut.z()}};
+}
+
+Json area_curve(const ServedJob& job, int values, int threads) {
+    const int layers = job.job().layers.count();
+    const int each = std::max(1, (layers + values - 1) / values);
+    const int count = (layers + each - 1) / each;
+    constexpr int rows_across = 256;
+    const Rect rect = job.job().bounds.rect();
+    const RowBand page = page_of(rect, std::max(rect.size().x, rect.size().y) / rows_across, 1);
+    std::vector<double> part(static_cast<std::size_t>(count)), supports(part.size());
+    ThreadArena arena(threads);
+    arena.execute([&] {
+        parallel_for(part.size(), [&](std::size_t i) {
+            const Layer cut = layer_of(job, std::min(static_cast<int>(i) * each + each / 2, layers - 1));
+            part[i] = area_of(&cut.part(), page);
+            supports[i] = area_of(cut.supports(), page);
+        });
+    });
+    return {{"layers_a_value", each}, {"area_mm2", part}, {"support_area_mm2", supports}};
+}
+
+std::string coverage_volume(const ServedJob& job, int longest, int threads) {
+    const Box& bounds = job.job().bounds;
+    const dvec3 size = bounds.size();
+    const double voxel = std::max({size.x, size.y, size.z}) / longest;
+    const auto voxels = [&](double length) {
+        return std::max(1, static_cast<int>(std::ceil(length / voxel - 1e-9)));
+    };
+    const int nx = voxels(size.x), ny = voxels(size.y), nz = voxels(size.z);
+    const dvec3 extent = voxel * dvec3(nx, ny, nz), lo = bounds.center() - 0.5 * extent;
+    RowBand page = page_of({{lo.x, lo.y}, {lo.x + extent.x, lo.y + extent.y}}, voxel, 3);
+    page.across_origin = lo.y;  // y upward
+    page.across_pitch = voxel;
+    const std::size_t plane = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
+    std::string bytes = headed(
+        {{"size", {nx, ny, nz}}, {"lo", json_triple(lo)}, {"hi", json_triple(lo + extent)}, {"channels", 2}});
+    const std::size_t head = bytes.size();
+    bytes.resize(head + 2 * plane * static_cast<std::size_t>(nz));
+    const auto put = [&](const SliceField& slice, std::size_t k, std::size_t channel) {
+        const std::vector<std::uint8_t> grey = grey_page(slice, page, true);
+        for (std::size_t i = 0; i < plane; ++i)
+            bytes[head + 2 * (k * plane + i) + channel] = static_cast<char>(grey[i]);
+    };
+    ThreadArena arena(threads);
+    arena.execute([&] {
+        parallel_for(static_cast<std::size_t>(nz), [&](std::size_t k) {
+            const double z = lo.z + (static_cast<double>(k) + 0.5) * voxel;
+            SliceContext context;
+            put(context.slice(*job.job().part, z), k, 0);
+            if (job.job().supports) put(context.slice(*job.job().supports, z), k, 1);
+        });
+    });
+    return bytes;
+}
+
+}  // namespace lamella

@@ -1,0 +1,41 @@
+// What a server sends of a job's layers: pictures, runs, contours, paths, areas, volumes.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/server/served_job.h"
+
+namespace lamella {
+
+/// A window of a layer's plane in square pixels.
+struct LayerWindow {
+    Rect rect;        ///< mm
+    int width = 800;  ///< px along x
+};
+
+/// Returns a PNG of the window, first row at the largest y: white by coverage, supports in the machine's
+/// grey; or, in colours, the part light and supports blue on a dark ground. Throws HttpError 400 for a window
+/// of more than 2^26 pixels.
+std::string layer_picture(const ServedJob& job, int layer, const LayerWindow& window, bool in_colours);
+
+/// Returns a JSON head, its length in 4 bytes before it, and the numbers of the runs: the first run of each
+/// line and one more (uint32), then begin and end of each (int32, 1/256 of a pixel); all little-endian.
+std::string layer_runs(const ServedJob& job, int layer, const RowBand& band, bool of_supports);
+
+/// Returns {"contours": [{"parent", "points": [x, y, ...]}], "area"}, mm, within `tolerance` of the surface.
+nlohmann::ordered_json layer_contours(const ServedJob& job, int layer, double tolerance, bool of_supports);
+
+/// Returns {"paths": [{"role", "tool", "width", "speed", "closed", "points": [x, y, ...]}]} of a machine that
+/// lays beads; mm, mm/s. Throws HttpError 400 for other machines.
+nlohmann::ordered_json layer_paths(const ServedJob& job, int layer);
+
+/// Returns the areas of at most `values` layers, evenly spread: {"layers_a_value", "area_mm2",
+/// "support_area_mm2"}, to about a percent.
+nlohmann::ordered_json area_curve(const ServedJob& job, int values, int threads);
+
+/// Returns a JSON head, its length in 4 bytes before it, and the coverage of part and supports, two bytes a
+/// voxel, x fastest, then y, then z. The longest side of the job's bounds has `longest` voxels.
+std::string coverage_volume(const ServedJob& job, int longest, int threads);
+
+}  // namespace lamella

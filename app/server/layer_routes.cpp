@@ -1,0 +1,121 @@
+// Layers of a job, and what is made of many: curve, volume, frames. Replies never change, so that whoever has
+// one may keep it for ever.
+#include <charconv>
+#include <map>
+
+#include "app/server/layer_content.h"
+#include "app/server/server_state.h"
+#include "printers/common/thumbnail.h"
+#include "recipe/output/job_picture.h"
+
+namespace lamella {
+
+namespace {
+
+/// A request for a layer of a job.
+struct Asked {
+    std::shared_ptr<const ServedJob> job;
+    int layer = 0;
+};
+
+Asked asked(ServerState& state, const HttpRequest& request) {
+    Asked found{state.jobs.find(request.parts.at("job"))};
+    const auto layer = request.parts.find("layer");
+    if (layer == request.parts.end()) return found;
+    const std::string& text = layer->second;
+    const int count = found.job->job().layers.count();
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), found.layer);
+    if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size() || found.layer < 0 ||
+        found.layer >= count)
+        throw HttpError(404, "there is no such layer; accepted: 0 to " + std::to_string(count - 1));
+    return found;
+}
+
+bool of_supports(const HttpRequest& request) {
+    const std::string what = request.text("what", "part");
+    if (what == "part") return false;
+    if (what == "supports") return true;
+    throw HttpError(400, "what: accepted: part, supports");
+}
+
+HttpReply mask(const Asked& asked, const HttpRequest& request) {
+    constexpr double far = 1e6;
+    const Rect bounds = asked.job->job().bounds.rect();
+    LayerWindow window;
+    window.width = request.integer("width", 800, 1, 8192);
+    window.rect = {
+        {request.number("x0", bounds.lo.x, -far, far), request.number("y0", bounds.lo.y, -far, far)},
+        {request.number("x1", bounds.hi.x, -far, far), request.number("y1", bounds.hi.y, -far, far)}};
+    if (!(window.rect.size().x > 1e-6 && window.rect.size().y > 1e-6))
+        throw HttpError(400, "x0, y0, x1, y1: accepted: corners of a window, the lower one first");
+    return {"image/png",
+            layer_picture(*asked.job, asked.layer, window, request.integer("colors", 0, 0, 1) == 1)};
+}
+
+HttpReply runs(const Asked& asked, const HttpRequest& request) {
+    constexpr double far = 1e6;
+    const Rect bounds = asked.job->job().bounds.rect();
+    RowBand band;
+    band.hi = request.integer("columns", 640, 1, 1 << 15);
+    band.count = request.integer("rows", 480, 1, 1 << 15);
+    band.sub = request.integer("lines", 1, 1, 16);
+    band.along_pitch = request.number("pitch_x", bounds.size().x / band.hi, -far, far);
+    band.across_pitch = request.number("pitch_y", -bounds.size().y / band.count, -far, far);
+    band.along_origin = request.number("x", bounds.lo.x, -far, far);
+    band.across_origin = request.number("y", bounds.hi.y, -far, far);
+    if (band.along_pitch == 0 || band.across_pitch == 0)
+        throw HttpError(400, "pitch_x, pitch_y: accepted: sizes of a pixel that are not 0");
+    return {"application/octet-stream", layer_runs(*asked.job, asked.layer, band, of_supports(request))};
+}
+
+HttpReply frame(const Asked& asked, const HttpRequest& request, int threads) {
+    PreviewOptions options;
+    options.width = options.height = request.integer("width", 512, 16, 2048);
+    options.azimuth = request.number("azimuth", options.azimuth, -3600, 3600);
+    options.elevation = request.number("elevation", options.elevation, -90, 90);
+    const std::string cut = request.text("cut", "-");
+    if (cut != "-" && cut != "x" && cut != "y" && cut != "z")
+        throw HttpError(400, "cut: accepted: -, x, y, z");
+    options.cut = cut.front();
+    options.cut_at = request.number("cut_at", options.cut_at, 0, 1);
+    options.threads = threads;
+    options.quick = true;
+    const ServedJob& job = *asked.job;
+    return {"image/png", png_file(render_job(job.recipe, job.built, job.supports, options))};
+}
+
+}  // namespace
+
+void add_layer_routes(ServerState& state) {
+    using Content = std::function<HttpReply(const Asked&, const HttpRequest&)>;
+    const auto add = [&state](const std::string& pattern, const Content& content) {
+        state.http.route("GET", "/api/jobs/{job}/" + pattern, [&state, content](const HttpRequest& request) {
+            const Asked found = asked(state, request);
+            const ComputeTurn turn(state.turns);
+            HttpReply reply = content(found, request);
+            // Of the recipe's text, as machines decide more than the layers' identity.
+            reply.tag = found.job->id + "-" + std::to_string(std::hash<std::string>()(request.target));
+            return reply;
+        });
+    };
+    const int threads = state.options.threads;
+    add("layers/{layer}/mask.png", mask);
+    add("layers/{layer}/runs", runs);
+    add("layers/{layer}/contours", [](const Asked& a, const HttpRequest& request) -> HttpReply {
+        return layer_contours(*a.job, a.layer, request.number("tolerance", 0.02, 0.001, 10),
+                              of_supports(request));
+    });
+    add("layers/{layer}/paths",
+        [](const Asked& a, const HttpRequest&) -> HttpReply { return layer_paths(*a.job, a.layer); });
+    add("curve", [threads](const Asked& a, const HttpRequest& request) -> HttpReply {
+        return area_curve(*a.job, request.integer("values", 400, 2, 4096), threads);
+    });
+    add("volume", [threads](const Asked& a, const HttpRequest& request) {
+        return HttpReply("application/octet-stream",
+                         coverage_volume(*a.job, request.integer("n", 96, 8, 256), threads));
+    });
+    add("frame.png",
+        [threads](const Asked& a, const HttpRequest& request) { return frame(a, request, threads); });
+}
+
+}  // namespace lamella

@@ -1,0 +1,54 @@
+// Puts a server together, and stops it.
+#include "app/server/server_state.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+
+namespace lamella {
+
+namespace {
+
+constexpr std::ptrdiff_t most_computing = 3;
+
+}  // namespace
+
+ComputeTurn::ComputeTurn(Turns& turns) : turns_(turns) {
+    constexpr std::chrono::seconds patience{30};
+    if (!turns_.try_acquire_for(patience)) throw HttpError(503, "too many requests wait already");
+}
+
+ServerState::ServerState(const ServerOptions& given)
+    : options(given),
+      http(given.http),
+      folder(given.folder),
+      jobs(folder, events, given.threads, given.jobs),
+      outputs(folder, events, given.threads),
+      turns(most_computing) {
+    add_setting_routes(*this);
+    add_recipe_routes(*this);
+    add_job_routes(*this);
+    add_layer_routes(*this);
+    add_output_routes(*this);
+    if (options.has_page) add_page_routes(*this);
+}
+
+void serve_http(const ServerOptions& options, const CancelToken& cancel,
+                const std::function<void(const std::string& address)>& on_ready) {
+    ServerState state(options);
+    std::atomic<bool> has_ended = false;
+    std::thread watch([&] {
+        while (!cancel.cancelled() && !has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        state.jobs.cancel_all();
+        state.events.end();
+        state.http.stop();
+    });
+    const std::string host = options.http.address == "0.0.0.0" ? "127.0.0.1" : options.http.address;
+    on_ready(fmt::format("http://{}:{}/?token={}", host, state.http.port(), options.http.token));
+    state.http.serve();
+    has_ended = true;
+    watch.join();
+}
+
+}  // namespace lamella

@@ -1,0 +1,63 @@
+// ServerState: what the routes of a server share.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <semaphore>
+#include <string>
+#include <string_view>
+
+#include "app/server/http_server.h"
+#include "app/server/job_store.h"
+#include "app/server/output_store.h"
+
+namespace lamella {
+
+struct ServerOptions {
+    HttpOptions http;
+    std::filesystem::path folder = ".";  ///< beyond which no file is read or written
+    std::string recipe;                  ///< file within the folder that the page begins with; empty: none
+    bool has_page = false;               ///< serves the studio's page
+    int threads = 0;                     ///< for layers; 0: one per core
+    std::size_t jobs = 4;                ///< that are held
+};
+
+/// Limits the requests that compute at the same time, each of which may use all threads.
+class ComputeTurn {
+  public:
+    using Turns = std::counting_semaphore<64>;
+    /// Waits for a turn. Throws HttpError 503 after 30 seconds.
+    explicit ComputeTurn(Turns& turns);
+    ~ComputeTurn() { turns_.release(); }
+    ComputeTurn(const ComputeTurn&) = delete;
+    ComputeTurn& operator=(const ComputeTurn&) = delete;
+
+  private:
+    Turns& turns_;
+};
+
+struct ServerState {
+    explicit ServerState(const ServerOptions& given);
+
+    ServerOptions options;
+    HttpServer http;
+    ServedFolder folder;
+    EventHub events;
+    JobStore jobs;
+    OutputStore outputs;
+    ComputeTurn::Turns turns;
+};
+
+/// Add the routes of a part of the interface (docs/embedding/http.md).
+void add_setting_routes(ServerState& state);
+void add_recipe_routes(ServerState& state);
+void add_job_routes(ServerState& state);
+void add_layer_routes(ServerState& state);
+void add_output_routes(ServerState& state);
+void add_page_routes(ServerState& state);
+
+/// Serves until `cancel` is set; `on_ready` is told the address of the page or of the interface.
+void serve_http(const ServerOptions& options, const CancelToken& cancel,
+                const std::function<void(const std::string& address)>& on_ready);
+
+}  // namespace lamella
