@@ -1,8 +1,9 @@
 // What of the form is shown: the words that are searched, and whether all keys are.
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import type { Setting } from "../server/types";
 
-export const search = signal("");
+export const search_text = signal("");
+export const search = computed(() => search_text.value.trim());
 export const all_keys = signal(false);
 
 export function matches(setting: Setting): boolean {

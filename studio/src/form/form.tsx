@@ -2,7 +2,7 @@
 import { left_mode, table, values, wanted_line } from "../state/store";
 import { settings_of } from "./applies";
 import { add_entry, add_section } from "./changes";
-import { all_keys, matches, search } from "./filter";
+import { all_keys, matches, search, search_text } from "./filter";
 import { HelpStrip } from "./help";
 import { other_mistakes, present } from "./places";
 import { ListSection, PlainSection } from "./section";
@@ -59,7 +59,7 @@ export function Form() {
         <div class="form">
             <div class="form-tools">
                 <input type="search" id="search-keys" placeholder="Search all keys" aria-label="Search all keys"
-                    value={search.value} onInput={(event) => { search.value = event.currentTarget.value.trim(); }} />
+                    value={search_text.value} onInput={(event) => { search_text.value = event.currentTarget.value; }} />
                 <label class="check"><input type="checkbox" checked={all_keys.value}
                     onChange={(event) => { all_keys.value = event.currentTarget.checked; }} />all keys</label>
             </div>
