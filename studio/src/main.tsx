@@ -49,8 +49,11 @@ async function load(): Promise<boolean> {
 }
 
 window.__studio = probe;
+import { stage } from "./view/shown"; import { effect } from "@preact/signals"; effect(()=>{(window as any).__stage=stage.value});
 start_theme();
-render(<App />, document.getElementById("page")!);
+const room = document.getElementById("page")!;
+room.replaceChildren();
+render(<App />, room);
 listen_to_keys();
 listen_to_drops();
 addEventListener("beforeunload", (event) => { if (unsaved.value && text.value.trim()) event.preventDefault(); });

@@ -55,7 +55,7 @@ function options_of(made: Job, width: number, height: number): uPlot.Options {
         fill: colour("--accent-fill"), points: { show: false } }];
     if (made.supports) series.push({ label: "supports", stroke: "#598fcc", width: 1.2, dash: [4, 3], points: { show: false } });
     return {
-        width, height, series, padding: [8, 12, 0, 0],
+        width, height, series, padding: [8, 26, 0, 0],
         legend: { show: false },
         cursor: { y: false, drag: { x: false, y: false }, points: { size: 6 } },
         scales: { x: { time: false, range: [0, made.layers.height_mm] }, y: { range: (_, __, hi) => [0, (hi || 1) * 1.08] } },

@@ -49,7 +49,7 @@ export class Orbit {
     private stand(direction: Vector3): void {
         const half = (this.camera.fov / 2) * Math.PI / 180;
         const narrow = Math.min(1, this.camera.aspect);
-        const distance = 1.04 * this.reach / Math.sin(Math.atan(Math.tan(half) * narrow));
+        const distance = 0.92 * this.reach / Math.sin(Math.atan(Math.tan(half) * narrow));
         this.controls.target.copy(this.middle);
         this.camera.position.copy(this.middle).addScaledVector(direction, distance);
         this.camera.near = distance / 100;

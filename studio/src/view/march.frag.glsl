@@ -14,6 +14,7 @@ uniform float cut_at;
 uniform vec3 block;        // edges of a block, mm
 uniform float voxel;       // the smallest edge of a voxel, mm
 uniform float stride;      // length of a step, in voxels
+uniform bool fine;         // false while the view moves: fewer samples
 uniform float layer_z, layer_half;  // the layer that is marked
 uniform vec3 part_colour, support_colour, cut_colour, support_cut_colour, layer_colour, grid_colour;
 uniform float grid_pitch;
@@ -24,21 +25,30 @@ out vec4 colour;
 vec2 coverage(vec3 p) { return texture(volume, (p - lo) / (hi - lo)).rg; }
 float value(vec3 p) { vec2 c = coverage(p); return max(c.r, c.g); }
 
-vec3 gradient(vec3 p) {  // four samples at the corners of a tetrahedron
-    const vec2 k = vec2(1.0, -1.0);
-    float h = voxel;
-    return -(k.xyy * value(p + k.xyy * h) + k.yyx * value(p + k.yyx * h) +
-             k.yxy * value(p + k.yxy * h) + k.xxx * value(p + k.xxx * h));
+vec3 gradient(vec3 p) {  // samples on two shells, wide enough to smooth the steps between slices
+    const vec3 k = vec3(1.0, -1.0, 0.0);
+    float h = 1.15 * voxel, g = 2.1 * voxel;
+    if (!fine) {
+        return -(k.xyy * value(p + k.xyy * h) + k.yyx * value(p + k.yyx * h) + k.yxy * value(p + k.yxy * h) +
+                 k.xxx * value(p + k.xxx * h));
+    }
+    vec3 sum = k.xyy * value(p + k.xyy * h) + k.yyx * value(p + k.yyx * h) + k.yxy * value(p + k.yxy * h) +
+               k.xxx * value(p + k.xxx * h) + k.yxx * value(p + k.yxx * h) + k.xxy * value(p + k.xxy * h) +
+               k.xyx * value(p + k.xyx * h) + k.yyy * value(p + k.yyy * h);
+    sum.x += value(p + k.xzz * g) - value(p + k.yzz * g);
+    sum.y += value(p + k.zxz * g) - value(p + k.zyz * g);
+    sum.z += value(p + k.zzx * g) - value(p + k.zzy * g);
+    return -sum;
 }
 
 vec3 shade(vec3 base, vec3 normal, vec3 ray, vec3 p) {
     vec3 key = normalize(vec3(-ray.y, ray.x, 0.0) * 0.5 - ray + vec3(0.0, 0.0, 0.7));
     float diffuse = max(0.0, dot(normal, key));
     float sky = 0.5 + 0.5 * normal.z;
-    float near = value(p + normal * voxel * 2.5), far = value(p + normal * voxel * 6.0);
+    float near = value(p + normal * voxel * 2.5), far = fine ? value(p + normal * voxel * 6.0) : near;
     float open = 1.0 - 0.35 * near - 0.3 * far;
     float shine = pow(max(0.0, dot(normal, normalize(key - ray))), 40.0) * 0.12;
-    return base * (0.22 + 0.2 * sky + 0.66 * diffuse) * open + shine * open;
+    return base * (0.26 + 0.24 * sky + 0.66 * diffuse) * open + shine * open;
 }
 
 vec4 plate(vec3 origin, vec3 ray) {  // lines on the bed, which fade with the distance from the part
@@ -48,7 +58,7 @@ vec4 plate(vec3 origin, vec3 ray) {  // lines on the bed, which fade with the di
     vec2 middle = 0.5 * (lo.xy + hi.xy);
     float reach = length(hi.xy - lo.xy);
     float fade = 1.0 - smoothstep(0.55 * reach, 1.1 * reach, length(p - middle));
-    float wide = max(t * 0.0011, 0.0) / max(-ray.z, 0.15);
+    float wide = t * 0.00035 / max(-ray.z, 0.2);
     vec2 off = abs(fract(p / grid_pitch + 0.5) - 0.5) * grid_pitch;
     float line = 1.0 - smoothstep(0.5 * wide, 1.5 * wide, min(off.x, off.y));
     float alpha = line * fade * 0.55;
@@ -91,7 +101,8 @@ void main() {
     bool at_entry = t == first;
     if (!at_entry) {
         float outside = before, inside = t;
-        for (int i = 0; i < 5; ++i) {
+        int halvings = fine ? 5 : 2;
+        for (int i = 0; i < halvings; ++i) {
             float half_way = 0.5 * (outside + inside);
             if (value(eye + safe * half_way) >= 0.5) inside = half_way; else outside = half_way;
         }

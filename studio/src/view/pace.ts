@@ -2,27 +2,37 @@
 
 /** Frames that are further apart belong to different movements, ms. */
 const pause = 500;
-const slow = 60;
-const fast = 28;
+/** Shares of the screen's pixels along an edge. Few of them: another size of the canvas costs time itself. */
+const scales = [1, 0.7, 0.5, 0.36];
+const slow = 75;
+const fast = 30;
+/** Frames after a change of the resolution until the next one. */
+const rest = 5;
 
 export class Pace {
     private times: number[] = [];
+    private level = 2;
+    private since = 0;
+
     /** Share of the screen's pixels along an edge that are drawn while the view moves. */
-    scale = 1;
+    get scale(): number {
+        return scales[this.level]!;
+    }
 
-    constructor(private readonly least: number) {}
-
-    /** A frame is drawn at this time. `moving`: one of a movement, whose resolution may change. */
-    frame(now: number, moving: boolean): void {
+    /** A frame of a movement is drawn at this time. */
+    frame(now: number): void {
         const last = this.times.at(-1);
         if (last !== undefined && now - last > pause) this.times = [];
         this.times.push(now);
-        if (this.times.length > 60) this.times.shift();
-        if (!moving || this.times.length < 4 || this.times.length % 3) return;
-        const recent = this.times.slice(-4);
-        const average = (recent.at(-1)! - recent[0]!) / 3;
-        if (average > slow) this.scale = Math.max(this.least, this.scale * Math.max(0.6, Math.sqrt(45 / average)));
-        else if (average < fast) this.scale = Math.min(1, this.scale * 1.12);
+        if (this.times.length > 120) this.times.shift();
+        if (this.times.length < 5 || ++this.since < rest) return;
+        const recent = this.times.slice(-5);
+        const average = (recent.at(-1)! - recent[0]!) / 4;
+        const next = this.level + (average > 2 * slow ? 2 : average > slow ? 1 : average < fast ? -1 : 0);
+        const level = Math.max(0, Math.min(scales.length - 1, next));
+        if (level === this.level) return;
+        this.level = level;
+        this.since = 0;
     }
 
     /** Frames a second of the movement that goes on or was the last. */

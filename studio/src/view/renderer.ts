@@ -21,6 +21,8 @@ export interface Scene {
     layer_z: number;
     layer_height: number;
     colours: Colours;
+    /** False while the view moves: fewer samples. */
+    fine: boolean;
     /** Length of a step in voxels: longer ones are faster and may miss thin walls. */
     stride: number;
 }
@@ -31,6 +33,7 @@ export class Renderer {
     private readonly matrix = new Matrix4();
     private volume: Volume | null = null;
     private textures: WebGLTexture[] = [];
+    private still: { width: number; height: number; buffer: WebGLFramebuffer; pixels: WebGLRenderbuffer } | null = null;
 
     /** Returns null when the browser has no WebGL2. */
     static make(canvas: HTMLCanvasElement): Renderer | null {
@@ -107,11 +110,62 @@ export class Renderer {
         this.gl.uniform3f(this.place(name), ...value);
     }
 
+    /** Draws all of the canvas at once. */
     draw(camera: PerspectiveCamera, scene: Scene): void {
         const gl = this.gl;
+        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
         gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT);
+        this.march(camera, scene);
+    }
+
+    /** Draws some rows of a picture that is not shown yet. */
+    draw_rows(camera: PerspectiveCamera, scene: Scene, width: number, height: number, first: number, rows: number): void {
+        const gl = this.gl;
+        if (!this.still || this.still.width !== width || this.still.height !== height) this.make_still(width, height);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, this.still!.buffer);
+        gl.viewport(0, 0, width, height);
+        gl.enable(gl.SCISSOR_TEST);
+        gl.scissor(0, first, width, rows);
+        gl.clearColor(0, 0, 0, 0);
+        gl.clear(gl.COLOR_BUFFER_BIT);
+        this.march(camera, scene);
+        gl.disable(gl.SCISSOR_TEST);
+        gl.flush();
+    }
+
+    /** Shows the picture that draw_rows has drawn. */
+    show_rows(canvas: HTMLCanvasElement): void {
+        const gl = this.gl;
+        if (!this.still) return;
+        const { width, height, buffer } = this.still;
+        if (canvas.width !== width || canvas.height !== height) {
+            canvas.width = width;
+            canvas.height = height;
+        }
+        gl.bindFramebuffer(gl.READ_FRAMEBUFFER, buffer);
+        gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+        gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+    }
+
+    private make_still(width: number, height: number): void {
+        const gl = this.gl;
+        if (this.still) {
+            gl.deleteFramebuffer(this.still.buffer);
+            gl.deleteRenderbuffer(this.still.pixels);
+        }
+        const pixels = gl.createRenderbuffer();
+        gl.bindRenderbuffer(gl.RENDERBUFFER, pixels);
+        gl.renderbufferStorage(gl.RENDERBUFFER, gl.RGBA8, width, height);
+        const buffer = gl.createFramebuffer();
+        gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
+        gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, pixels);
+        this.still = { width, height, buffer, pixels };
+    }
+
+    private march(camera: PerspectiveCamera, scene: Scene): void {
+        const gl = this.gl;
         const volume = this.volume;
         if (!volume) return;
         this.matrix.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
@@ -142,6 +196,7 @@ export class Renderer {
         this.triple("block", voxels.map((edge) => edge * block) as Triple);
         gl.uniform1f(this.place("voxel"), Math.min(...voxels));
         gl.uniform1f(this.place("stride"), scene.stride);
+        gl.uniform1i(this.place("fine"), scene.fine ? 1 : 0);
         gl.uniform1i(this.place("cut_axis"), scene.cut.axis);
         gl.uniform1f(this.place("cut_at"), scene.cut.at);
         gl.uniform1f(this.place("layer_z"), scene.layer_z);
