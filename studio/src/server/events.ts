@@ -1,0 +1,34 @@
+// The server's events: progress, outputs, and whether it is there at all.
+import { signal } from "@preact/signals";
+import { with_token } from "./http";
+import { session } from "./token";
+import type { Output, Progress } from "./types";
+
+/** Whether the line to the server is broken. EventSource tries again by itself. */
+export const away = signal(false);
+
+export interface Listener {
+    /** The server is there again after it was away: it may have lost its jobs. */
+    back(): void;
+    progress(progress: Progress): void;
+    output(output: Output): void;
+}
+
+/** How long a closed line stays closed until it is opened anew, ms. */
+const wait = 2000;
+
+export function listen(listener: Listener): void {
+    const stream = new EventSource(with_token(`/api/events?session=${session}`));
+    stream.addEventListener("hello", () => {
+        if (!away.value) return;
+        away.value = false;
+        listener.back();
+    });
+    stream.addEventListener("progress", (event) => listener.progress(JSON.parse(event.data) as Progress));
+    stream.addEventListener("output", (event) => listener.output(JSON.parse(event.data) as Output));
+    stream.addEventListener("error", () => {
+        away.value = true;
+        if (stream.readyState !== EventSource.CLOSED) return;
+        setTimeout(() => listen(listener), wait);  // the server answered with an error: open a new line
+    });
+}

@@ -1,0 +1,158 @@
+// The replies of the server, as the page uses them.
+
+export type Triple = [number, number, number];
+
+export interface Mistake {
+    line: number | null;
+    text: string;
+}
+
+export interface Version {
+    name: string;
+    version: string;
+    studio: boolean;
+    recipe: string | null;
+    threads: number;
+}
+
+export type SettingType = "boolean" | "integer" | "number" | "text" | "lines" | "path" | "choice" | "triple" |
+    "graded" | "graded_triple" | "formula" | "rows";
+
+export interface Setting {
+    section: string;
+    key: string;
+    flag: string;
+    type: SettingType;
+    unit: string;
+    lo: number | null;
+    hi: number | null;
+    choices: string[];
+    default: string;
+    help: string;
+}
+
+export interface Section {
+    name: string;
+    title: string;
+    help: string;
+    list: boolean;
+}
+
+/** A key that chooses which other keys of its section apply. */
+export interface KindKey {
+    section: string;
+    key: string;
+    words: Record<string, { needs: string[]; takes: string[] }>;
+}
+
+export interface Table {
+    sections: Section[];
+    settings: Setting[];
+    kinds: KindKey[];
+}
+
+export interface Machine {
+    name: string;
+    description: string;
+    backend: string;
+    process: string;
+    extension: string;
+}
+
+export interface Example {
+    name: string;
+    title: string;
+    text: string;
+}
+
+export interface Values {
+    values: Record<string, string>;
+    lists: Record<string, Record<string, string>[]>;
+    given: string[];
+}
+
+/** A change of one key. Value null removes the key; key null removes the section, or the entry of a list. */
+export interface Change {
+    section: string;
+    index?: number;
+    key: string | null;
+    value: string | null;
+}
+
+export interface Job {
+    job: string;
+    name: string;
+    machine: string;
+    backend: string;
+    process: string;
+    bounds: { lo: Triple; hi: Triple };
+    layers: { count: number; heights: [number, number][]; height_mm: number };
+    supports: boolean;
+    notes: string[];
+    display: { width: number; height: number; pixel_x: number; pixel_y: number; corner?: [number, number] } | null;
+}
+
+export interface Contours {
+    contours: { parent: number; points: number[] }[];
+    area: number;
+}
+
+export interface Path {
+    role: string;
+    tool: number;
+    width: number;
+    speed: number;
+    closed: boolean;
+    points: number[];
+}
+
+export interface Paths {
+    paths: Path[];
+    seconds: number;
+}
+
+export interface Curve {
+    layers_a_value: number;
+    area_mm2: number[];
+    support_area_mm2: number[];
+}
+
+/** A place of a fault; its size is in a field named by its unit, such as size_mm2. */
+export interface Place {
+    at_mm: Triple;
+    layer: number;
+    box_mm?: { lo: Triple; hi: Triple };
+    [size: `size_${string}`]: number;
+}
+
+export interface Check {
+    check: string;
+    verdict: string;
+    passed: boolean;
+    limit: string;
+    count: number;
+    worst: Place[];
+}
+
+export interface Report {
+    passed: boolean;
+    checks: Check[];
+}
+
+export interface Output {
+    output: number;
+    state: "running" | "done" | "failed" | "cancelled";
+    done: number;
+    of: number;
+    file: string;
+    bytes: number;
+    message: string;
+}
+
+export interface Progress {
+    what: "build" | "check" | "output";
+    id: number | null;
+    done: number;
+    of: number;
+    text: string;
+}

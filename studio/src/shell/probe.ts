@@ -1,0 +1,35 @@
+// window.__studio: what tests and the curious may read of the page.
+import { faults } from "../check/faults";
+import { lines, picture } from "../layers/picture";
+import { away } from "../server/events";
+import { building, job, layer, mistakes, tab, text } from "../state/store";
+import { shown_voxels, stage } from "../view/shown";
+
+export interface Probe {
+    /** Frames a second of the last movement of the view. */
+    readonly fps: number;
+    readonly state: Record<string, unknown>;
+}
+
+export const probe: Probe = {
+    get fps() {
+        return stage.value?.pace.fps ?? 0;
+    },
+    get state() {
+        return {
+            job: job.value?.job ?? null,
+            layers: job.value?.layers.count ?? 0,
+            layer: layer.value,
+            shown: picture.value ? { job: picture.value.job, layer: picture.value.layer, exact: picture.value.exact }
+                : lines.value ? { job: lines.value.job, layer: lines.value.layer } : null,
+            voxels: shown_voxels.value,
+            scale: stage.value?.pace.scale ?? 0,
+            text: text.value,
+            mistakes: mistakes.value,
+            faults: faults.value.length,
+            building: building.value,
+            away: away.value,
+            tab: tab.value,
+        };
+    },
+};

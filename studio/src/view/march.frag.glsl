@@ -1,0 +1,132 @@
+#version 300 es
+// Marches a ray through the coverage of part (red) and supports (green), to the surface of coverage 0.5.
+precision highp float;
+precision highp sampler3D;
+
+uniform sampler3D volume;
+uniform sampler3D blocks;  // the largest coverage in blocks of voxels, to skip what is empty
+uniform mat4 unproject;    // from the screen to mm
+uniform vec3 eye;
+uniform vec3 lo, hi;       // the box of the volume, mm
+uniform vec3 clip_lo, clip_hi;  // what the cut leaves of it
+uniform int cut_axis;      // -1: no cut
+uniform float cut_at;
+uniform vec3 block;        // edges of a block, mm
+uniform float voxel;       // the smallest edge of a voxel, mm
+uniform float stride;      // length of a step, in voxels
+uniform bool fine;         // false while the view moves: fewer samples
+uniform float layer_z, layer_half;  // the layer that is marked
+uniform vec3 part_colour, support_colour, cut_colour, support_cut_colour, layer_colour, grid_colour;
+uniform float grid_pitch;
+
+in vec2 at;
+out vec4 colour;
+
+vec2 coverage(vec3 p) { return texture(volume, (p - lo) / (hi - lo)).rg; }
+float value(vec3 p) { vec2 c = coverage(p); return max(c.r, c.g); }
+
+vec3 gradient(vec3 p) {  // samples on two shells, wide enough to smooth the steps between slices
+    const vec3 k = vec3(1.0, -1.0, 0.0);
+    float h = 1.15 * voxel, g = 2.1 * voxel;
+    if (!fine) {
+        return -(k.xyy * value(p + k.xyy * h) + k.yyx * value(p + k.yyx * h) + k.yxy * value(p + k.yxy * h) +
+                 k.xxx * value(p + k.xxx * h));
+    }
+    vec3 sum = k.xyy * value(p + k.xyy * h) + k.yyx * value(p + k.yyx * h) + k.yxy * value(p + k.yxy * h) +
+               k.xxx * value(p + k.xxx * h) + k.yxx * value(p + k.yxx * h) + k.xxy * value(p + k.xxy * h) +
+               k.xyx * value(p + k.xyx * h) + k.yyy * value(p + k.yyy * h);
+    sum.x += value(p + k.xzz * g) - value(p + k.yzz * g);
+    sum.y += value(p + k.zxz * g) - value(p + k.zyz * g);
+    sum.z += value(p + k.zzx * g) - value(p + k.zzy * g);
+    return -sum;
+}
+
+vec3 shade(vec3 base, vec3 normal, vec3 ray, vec3 p) {
+    vec3 key = normalize(vec3(-ray.y, ray.x, 0.0) * 0.5 - ray + vec3(0.0, 0.0, 0.7));
+    float diffuse = max(0.0, dot(normal, key));
+    float sky = 0.5 + 0.5 * normal.z;
+    float near = value(p + normal * voxel * 2.5), far = fine ? value(p + normal * voxel * 6.0) : near;
+    float open = 1.0 - 0.35 * near - 0.3 * far;
+    float shine = pow(max(0.0, dot(normal, normalize(key - ray))), 40.0) * 0.12;
+    return base * (0.26 + 0.24 * sky + 0.66 * diffuse) * open + shine * open;
+}
+
+vec4 plate(vec3 origin, vec3 ray) {  // lines on the bed, which fade with the distance from the part
+    if (origin.z <= lo.z || ray.z > -1e-4) return vec4(0.0);
+    float t = (lo.z - origin.z) / ray.z;
+    vec2 p = origin.xy + ray.xy * t;
+    vec2 middle = 0.5 * (lo.xy + hi.xy);
+    float reach = length(hi.xy - lo.xy);
+    float fade = 1.0 - smoothstep(0.55 * reach, 1.1 * reach, length(p - middle));
+    float wide = t * 0.00035 / max(-ray.z, 0.2);
+    vec2 off = abs(fract(p / grid_pitch + 0.5) - 0.5) * grid_pitch;
+    float line = 1.0 - smoothstep(0.5 * wide, 1.5 * wide, min(off.x, off.y));
+    float alpha = line * fade * 0.55;
+    return vec4(grid_colour * alpha, alpha);
+}
+
+void main() {
+    vec4 beyond = unproject * vec4(at, 1.0, 1.0);
+    vec3 ray = normalize(beyond.xyz / beyond.w - eye);
+    vec3 safe = mix(ray, vec3(1e-6), lessThan(abs(ray), vec3(1e-6)));
+    vec3 inverse = 1.0 / safe;
+    vec3 a = (clip_lo - eye) * inverse, b = (clip_hi - eye) * inverse;
+    vec3 entries = min(a, b), exits = max(a, b);
+    float t = max(max(entries.x, entries.y), max(entries.z, 0.0));
+    float end = min(min(exits.x, exits.y), exits.z);
+    colour = plate(eye, ray);
+    if (t >= end) return;
+
+    float tiny = 1e-3 * voxel;
+    float first = t;
+    float before = t;
+    float step_length = stride * voxel;
+    bool hit = false;
+    for (int i = 0; i < 700; ++i) {
+        vec3 p = eye + safe * (t + tiny);
+        vec3 cell = floor((p - lo) / block);
+        if (texelFetch(blocks, ivec3(cell), 0).r < 0.5) {
+            vec3 side = (lo + (cell + step(0.0, safe)) * block - eye) * inverse;
+            t = max(t, min(min(side.x, side.y), side.z)) + tiny;
+            before = t;
+        } else {
+            if (value(p) >= 0.5) { hit = true; break; }
+            before = t;
+            t += step_length;
+        }
+        if (t >= end) break;
+    }
+    if (!hit) return;
+
+    bool at_entry = t == first;
+    if (!at_entry) {
+        float outside = before, inside = t;
+        int halvings = fine ? 5 : 2;
+        for (int i = 0; i < halvings; ++i) {
+            float half_way = 0.5 * (outside + inside);
+            if (value(eye + safe * half_way) >= 0.5) inside = half_way; else outside = half_way;
+        }
+        t = inside;
+    }
+    vec3 p = eye + ray * t;
+    vec2 c = coverage(p);
+    bool is_support = c.g > c.r;
+    bool on_cut = false;
+    if (cut_axis >= 0 && at_entry) on_cut = abs(p[cut_axis] - cut_at) < 2.0 * tiny + 1e-4 * voxel;
+    if (on_cut) {
+        colour = vec4(is_support ? support_cut_colour : cut_colour, 1.0);
+    } else {
+        vec3 normal = gradient(p);
+        float size = length(normal);
+        vec3 face = vec3(0.0);
+        if (entries.x >= entries.y && entries.x >= entries.z) face.x = -sign(ray.x);
+        else if (entries.y >= entries.z) face.y = -sign(ray.y);
+        else face.z = -sign(ray.z);
+        normal = at_entry || size < 0.02 ? face : normal / size;
+        if (dot(normal, ray) > 0.0) normal = normalize(normal - ray * dot(normal, ray));
+        colour = vec4(shade(is_support ? support_colour : part_colour, normal, ray, p), 1.0);
+    }
+    float band = max(layer_half, 0.35 * voxel);
+    float ring = 1.0 - smoothstep(band, band + 0.35 * voxel, abs(p.z - layer_z));
+    if (!on_cut || cut_axis != 2) colour.rgb = mix(colour.rgb, layer_colour, 0.85 * ring);
+}

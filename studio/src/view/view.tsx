@@ -1,0 +1,125 @@
+// The 3D view: the part, its cut, the layer that is looked at and the places of faults.
+import { effect, useSignal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { get_volume } from "../server/api";
+import { Latest } from "../server/latest";
+import type { Job } from "../server/types";
+import { layer_at, plane_of, slab_of } from "../state/heights";
+import { building, job, layer } from "../state/store";
+import { dark } from "../shell/theme";
+import { read_colours } from "./colours";
+import { cut } from "./cut";
+import { CutBar } from "./cut_bar";
+import { FaultMarkers } from "./fault_markers";
+import { Fallback } from "./fallback";
+import { Stage } from "./stage";
+import { shown_voxels, stage } from "./shown";
+import { Triad } from "./triad";
+import { read_volume } from "./volume";
+
+/** Voxels along the longest side: first, and when nothing has changed for a while. */
+const coarse = 64;
+const fine = 160;
+const idle = 500;
+
+function watch_volume(on: Stage): () => void {
+    const latest = new Latest();
+    let timer = 0;
+    const load = (made: Job, voxels: number) => latest.run(async (signal) => {
+        const volume = read_volume(await get_volume(made, voxels, signal));
+        if (job.value?.job !== made.job && voxels === fine) return;
+        on.set_volume(volume);
+        shown_voxels.value = voxels;
+    });
+    const stop = effect(() => {
+        const made = job.value;
+        clearTimeout(timer);
+        if (!made) return;
+        load(made, coarse);
+        timer = window.setTimeout(() => load(made, fine), idle);
+    });
+    return () => {
+        stop();
+        latest.cancel();
+        clearTimeout(timer);
+    };
+}
+
+function watch_scene(on: Stage): () => void {
+    return effect(() => {
+        const made = job.value;
+        void dark.value;  // colours follow the theme
+        if (!made) return;
+        const k = layer.value;
+        on.set_scene({ cut: cut.value, layer_z: plane_of(made, k), layer_height: slab_of(made, k).height,
+            colours: read_colours() });
+    });
+}
+
+/** A click, as opposed to a drag, goes to the layer of the place that was hit. */
+function watch_clicks(on: Stage, frame: HTMLElement): () => void {
+    let down: [number, number] | null = null;
+    const press = (event: PointerEvent) => { down = event.button === 0 ? [event.clientX, event.clientY] : null; };
+    const release = (event: PointerEvent) => {
+        const made = job.value;
+        if (!down || !made || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+        const box = frame.getBoundingClientRect();
+        const place = on.place_at(event.clientX - box.left, event.clientY - box.top);
+        if (place) layer.value = layer_at(made, place[2] - made.bounds.lo[2]);
+    };
+    frame.addEventListener("pointerdown", press);
+    frame.addEventListener("pointerup", release);
+    return () => {
+        frame.removeEventListener("pointerdown", press);
+        frame.removeEventListener("pointerup", release);
+    };
+}
+
+function on_key(on: Stage, event: KeyboardEvent): void {
+    const fine_step = event.shiftKey ? 2 : 10;
+    const moves: Record<string, () => void> = {
+        ArrowLeft: () => on.orbit.turn(-fine_step, 0),
+        ArrowRight: () => on.orbit.turn(fine_step, 0),
+        ArrowUp: () => on.orbit.turn(0, fine_step),
+        ArrowDown: () => on.orbit.turn(0, -fine_step),
+        "+": () => on.orbit.zoom(0.85),
+        "=": () => on.orbit.zoom(0.85),
+        "-": () => on.orbit.zoom(1 / 0.85),
+        Home: () => on.orbit.reset(),
+    };
+    const move = moves[event.key];
+    if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    move();
+}
+
+export function View() {
+    const frame = useRef<HTMLDivElement>(null);
+    const canvas = useRef<HTMLCanvasElement>(null);
+    const webgl = useSignal(true);
+    useEffect(() => {
+        const on = new Stage(canvas.current!, frame.current!);
+        stage.value = on;
+        webgl.value = on.has_webgl;
+        const stops = on.has_webgl ? [watch_volume(on), watch_scene(on), watch_clicks(on, frame.current!)] : [];
+        return () => {
+            for (const stop of stops) stop();
+            on.dispose();
+            stage.value = null;
+        };
+    }, []);
+    return (
+        <section class="view" aria-label="Part">
+            <div class="view-frame" ref={frame} tabIndex={0} role="application"
+                aria-label="3D view. Arrow keys turn the part, plus and minus zoom, Home shows all of it."
+                onKeyDown={(event) => stage.value && on_key(stage.value, event)}>
+                <canvas ref={canvas} aria-hidden="true" />
+                {!webgl.value && <Fallback />}
+            </div>
+            {webgl.value && <FaultMarkers />}
+            {webgl.value && <Triad />}
+            {building.value && <div class="view-busy" role="status">computing…</div>}
+            <CutBar />
+        </section>
+    );
+}
