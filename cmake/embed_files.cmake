@@ -8,13 +8,15 @@ foreach(file IN LISTS FILES)
     if(NOT end EQUAL -1)
         message(FATAL_ERROR "${file} ends its own quotation")
     endif()
-    string(APPEND rows "    EmbeddedFile{\"${name}\", R\"file~(${text})file~\"},\n")
+    string(APPEND rows "    EmbeddedFile{\"${name}\", R\"file~(${text})file~\"sv},\n")
 endforeach()
 file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 
 #include <array>
 
 namespace lamella {
+
+using namespace std::string_view_literals;  // which know their lengths
 
 std::span<const EmbeddedFile> ${FUNCTION}() {
     static constexpr std::array table{

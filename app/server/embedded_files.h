@@ -14,6 +14,9 @@ struct EmbeddedFile {
 /// Returns recipes to begin with, by name. Generated from files of examples/ when the program is built.
 std::span<const EmbeddedFile> example_recipes();
 
+/// Returns the description of the HTTP interface, openapi.json.
+std::span<const EmbeddedFile> interface_files();
+
 /// Returns the files of the studio's page; none when the program was built without it. Generated from
 /// studio/dist.
 std::span<const EmbeddedFile> page_files();

@@ -11,10 +11,11 @@
 #include "app/reports/grey_page.h"
 #include "app/server/http_server.h"
 #include "engine/base/parallel.h"
+#include "engine/contours/coverage.h"
 #include "engine/field/slice_context.h"
-#include "printers/common/thumbnail.h"
 #include "printers/gcode/gcode_roles.h"
 #include "printers/gcode/layer_beads.h"
+#include "printers/masks/png_writer.h"
 #include "printers/registry.h"
 #include "recipe/build/json_triple.h"
 
@@ -66,6 +67,47 @@ Color mixed(double part, double supports) {
     return color;
 }
 
+constexpr unsigned shares = 16;  // of part and of supports, where both are in a picture
+
+/// Returns the colours of pixels: by their coverage, or with supports by 16 shares of each.
+std::vector<std::uint8_t> palette_of(bool with_supports) {
+    std::vector<std::uint8_t> palette;
+    for (unsigned i = 0; i < 256; ++i) {
+        const Color color =
+            with_supports ? mixed((i / shares) / 15.0, (i % shares) / 15.0) : mixed(i / 255.0, 0);
+        for (const double channel : color) palette.push_back(static_cast<std::uint8_t>(std::lround(channel)));
+    }
+    return palette;
+}
+
+/// Returns the runs of both, of equal lengths, with the value of each pair.
+template <typename Combine>
+std::vector<GreyRun> combined(std::span<const GreyRun> a, std::span<const GreyRun> b, Combine combine) {
+    std::vector<GreyRun> runs;
+    std::size_t i = 0, j = 0;
+    for (std::uint32_t taken_a = 0, taken_b = 0; i < a.size() && j < b.size();) {
+        const std::uint32_t length = std::min<std::uint32_t>(a[i].length - taken_a, b[j].length - taken_b);
+        GreyRun run = a[i];
+        run.length = length;
+        run.value = static_cast<decltype(run.value)>(combine(a[i].value, b[j].value));
+        runs.push_back(run);
+        taken_a += length;
+        taken_b += length;
+        if (taken_a == a[i].length) ++i, taken_a = 0;
+        if (taken_b == b[j].length) ++j, taken_b = 0;
+    }
+    return runs;
+}
+
+/// Returns the coverage of some rows of a page.
+std::vector<GreyRun> grey_rows(const SliceField& slice, const RowBand& band, Scratch& scratch) {
+    RunRows rows;
+    std::vector<GreyRun> runs;
+    slice.runs(band, scratch, rows);
+    coverage(band, rows, runs);
+    return runs;
+}
+
 const SliceField* slice_of(const Layer& layer, bool of_supports) {
     return of_supports ? layer.supports() : &layer.part();
 }
@@ -100,20 +142,27 @@ std::string layer_picture(const ServedJob& job, int layer, const LayerWindow& wi
     if (static_cast<double>(page.hi) * page.count > most_pixels)
         throw HttpError(400, "the picture would be too large; accepted: a smaller width or window");
     const Layer cut = layer_of(job, layer);
-    const std::vector<std::uint8_t> part = grey_page(cut.part(), page, true);
-    const std::vector<std::uint8_t> supports =
-        cut.supports() != nullptr ? grey_page(*cut.supports(), page, true) : std::vector<std::uint8_t>();
-    Picture picture{page.hi, page.count, {}};
-    picture.rgb.reserve(3 * part.size());
+    const SliceField* supports = cut.supports();
+    PngHeader header{page.hi, page.count};
+    if (in_colours) header.palette = palette_of(supports != nullptr);
+    std::vector<std::byte> file;
+    PngWriter writer(header, file);
+    Scratch scratch;
     const double grey = job.recipe.printer.support.grey;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-        const double other = supports.empty() ? 0 : supports[i];
-        const double value = std::max<double>(part[i], grey * other);
-        const Color color = in_colours ? mixed(part[i] / 255.0, other / 255.0) : Color{value, value, value};
-        for (const double channel : color)
-            picture.rgb.push_back(static_cast<std::uint8_t>(std::lround(std::min(channel, 255.0))));
+    for (RowBand band = page; band.first < page.count; band.first += png_band_rows) {
+        band.count = std::min(png_band_rows, page.count - band.first);
+        std::vector<GreyRun> runs = grey_rows(cut.part(), band, scratch);
+        if (supports != nullptr) {
+            runs = combined(runs, grey_rows(*supports, band, scratch), [&](unsigned part, unsigned other) {
+                if (in_colours) return part / 17 * shares + other / 17;
+                return std::max(part, static_cast<unsigned>(std::lround(other * grey)));
+            });
+        }
+        writer.add_rows(runs, band.count);
     }
-    return png_file(picture);
+    writer.finish();
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): bytes as text for the reply
+    return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
 std::string layer_runs(const ServedJob& job, int layer, const RowBand& band, bool of_supports) {
@@ -170,7 +219,7 @@ Json area_curve(const ServedJob& job, int values, int threads) {
     const int layers = job.job().layers.count();
     const int each = std::max(1, (layers + values - 1) / values);
     const int count = (layers + each - 1) / each;
-    constexpr int rows_across = 256;
+    constexpr int rows_across = 128;
     const Rect rect = job.job().bounds.rect();
     const RowBand page = page_of(rect, std::max(rect.size().x, rect.size().y) / rows_across, 1);
     std::vector<double> part(static_cast<std::size_t>(count)), supports(part.size());

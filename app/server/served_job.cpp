@@ -78,10 +78,10 @@ BuiltJob build_part(const Recipe& recipe, const BuildControl& control, std::opti
 Recipe read_served_recipe(const std::string& text, const ServedFolder& folder) {
     const std::string name = name_of(folder);
     try {
-        folder.check_recipe(text);
         RecipeDraft draft;
         draft.use_profiles(machine_profiles(""));
         draft.read_text(text, name);
+        folder.check_recipe(text);  // before any file is opened
         return draft.finish();
     } catch (const InputError& error) {
         throw RecipeMistakes(error.what(), name);

@@ -114,6 +114,9 @@ void add_setting_routes(ServerState& state) {
                     {"recipe", state.options.recipe.empty() ? Json() : Json(state.options.recipe)},
                     {"threads", thread_count(state.options.threads)}};
     });
+    http.route("GET", "/api/openapi.json", [](const HttpRequest&) {
+        return HttpReply("application/json", std::string(interface_files().front().text));
+    });
     http.route("GET", "/api/settings", [](const HttpRequest&) -> HttpReply {
         return Json{{"sections", sections_json()}, {"settings", settings_json()}, {"kinds", kinds_json()}};
     });

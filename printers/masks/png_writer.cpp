@@ -105,6 +105,10 @@ PngWriter::PngWriter(const PngHeader& header, std::vector<std::byte>& out) : hea
     if (header.bits != 8 && (header.colors != PngColors::grey || (header.bits != 1 && header.bits != 16))) {
         throw InputError(std::to_string(header.bits) + " bits a pixel: must be 8, of grey images 1, 8 or 16");
     }
+    constexpr std::size_t palette_bytes = 3 * 256;
+    if (!header.palette.empty() &&
+        (header.palette.size() != palette_bytes || header.bits != 8 || header.colors != PngColors::grey))
+        throw InputError("a palette has 256 colours, for an image with one sample of 8 bits a pixel");
     if (bytes_a_row() > 65535) {
         throw InputError("an image of " + std::to_string(header.width) + " px of 16 bits: 32767 is the most");
     }
@@ -113,11 +117,16 @@ PngWriter::PngWriter(const PngHeader& header, std::vector<std::byte>& out) : hea
     put_u32(out_, static_cast<std::uint32_t>(packed ? header.width / 3 : header.width));
     put_u32(out_, static_cast<std::uint32_t>(header.height));
     put_u8(out_, static_cast<unsigned>(header.bits));
-    put_u8(out_, rgb || packed ? 2 : 0);
+    put_u8(out_, !header.palette.empty() ? 3 : rgb || packed ? 2 : 0);
     put_u8(out_, 0);  // deflate
     put_u8(out_, 0);  // the five standard filters
     put_u8(out_, 0);  // not interlaced
     end_chunk(size);
+    if (!header.palette.empty()) {
+        const std::size_t palette = begin_chunk("PLTE");
+        for (const std::uint8_t byte : header.palette) put_u8(out_, byte);
+        end_chunk(palette);
+    }
     // Outside these bounds (1 nm to 1 m per pixel) the number does not fit the chunk.
     const auto known = [](double pixel) { return pixel >= 1e-6 && pixel <= 1000; };
     if (known(header.pixel_x) && known(header.pixel_y)) {

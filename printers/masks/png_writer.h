@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct PngHeader {
     PngColors colors = PngColors::grey;
     int bits = 8;  ///< bits per sample: 8; for grey images also 1 (white from half of 255 up) and 16 (white
                    ///< is 65535)
+    /// 256 colours, three bytes each, that the samples of an image of 8 bits number; empty: they are greys.
+    std::vector<std::uint8_t> palette{};
 };
 
 /// Writes one image band by band, each band as an IDAT chunk. Memory: the compressed bytes and one band.

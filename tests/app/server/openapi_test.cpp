@@ -1,0 +1,123 @@
+// The description of the interface against the server: the same routes, and replies of the described form.
+#include <algorithm>
+#include <set>
+
+#include "tests/app/server/running_server.h"
+
+namespace openapi_test {
+
+using namespace lamella;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Json& resolved(const Json& document, const Json& schema) {
+    if (!schema.contains("$ref")) return schema;
+    const std::string name = schema["$ref"].get<std::string>();
+    return document["components"]["schemas"].at(name.substr(name.rfind('/') + 1));
+}
+
+bool is_of_type(const Json& value, const std::string& type) {
+    if (type == "object") return value.is_object();
+    if (type == "array") return value.is_array();
+    if (type == "string") return value.is_string();
+    if (type == "boolean") return value.is_boolean();
+    if (type == "integer") return value.is_number_integer();
+    if (type == "number") return value.is_number();
+    return type == "null" && value.is_null();
+}
+
+/// Returns where a value does not fit its schema; empty where it does.
+std::string misfit(const Json& document, const Json& given, const Json& value, const std::string& place) {
+    const Json& schema = resolved(document, given);
+    const Json types = schema["type"].is_array() ? schema["type"] : Json::array({schema["type"]});
+    if (std::ranges::none_of(types,
+                             [&](const Json& type) { return is_of_type(value, type.get<std::string>()); }))
+        return place + ": " + value.dump().substr(0, 60) + " is no " + types.dump();
+    if (schema.contains("enum") && std::ranges::find(schema["enum"], value) == schema["enum"].end())
+        return place + ": " + value.dump() + " is none of " + schema["enum"].dump();
+    if (value.is_object() && schema.contains("required")) {
+        for (const Json& name : schema["required"])
+            if (!value.contains(name.get<std::string>())) return place + ": has no " + name.dump();
+        for (const auto& [name, member] : value.items()) {
+            if (!schema["properties"].contains(name)) continue;
+            const std::string wrong =
+                misfit(document, schema["properties"][name], member, place + "." + name);
+            if (!wrong.empty()) return wrong;
+        }
+    }
+    if (value.is_array() && schema.contains("items")) {
+        for (const Json& item : value) {
+            const std::string wrong = misfit(document, schema["items"], item, place + "[]");
+            if (!wrong.empty()) return wrong;
+        }
+    }
+    return "";
+}
+
+std::string upper(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("the description has every route, and no other", "[server]") {
+    RunningServer server;
+    const Json document = server.json("GET", "/api/openapi.json");
+    std::set<std::string> described, served;
+    for (const auto& [path, methods] : document["paths"].items())
+        for (const auto& [method, operation] : methods.items()) described.insert(upper(method) + " " + path);
+    for (const std::string& route : server.state().http.routes()) served.insert(route);
+    CHECK(described == served);
+}
+
+TEST_CASE("replies have the form that the description gives them", "[server]") {
+    const RunningServer server;
+    const Json document = server.json("GET", "/api/openapi.json");
+    const std::string recipe =
+        "[part]\nshape = \"sphere\"\nradius = 3\n[layers]\nheight = 0.2\n[printer]\nprofile = \"marlin\"\n";
+    const std::string job = server.build(recipe);
+    const int output = server.json("POST", "/api/jobs/" + job + "/outputs", {}, 202)["output"];
+    const auto filled = [&](std::string path) {
+        for (const auto& [part, value] : {std::pair<std::string, std::string>{"{job}", job},
+                                          {"{layer}", "5"},
+                                          {"{output}", std::to_string(output)}}) {
+            if (const std::size_t at = path.find(part); at != std::string::npos)
+                path.replace(at, part.size(), value);
+        }
+        return path;
+    };
+    const auto check = [&](const std::string& method, const std::string& path, const Json& body) {
+        const Json& responses = document["paths"].at(path).at(method)["responses"];
+        const auto reply = server.send(upper(method), filled(path), body.is_null() ? "" : body.dump());
+        INFO(method << " " << path << " " << reply->status << " " << reply->body.substr(0, 200));
+        const std::string status = std::to_string(reply->status);
+        REQUIRE(responses.contains(status));
+        const Json& contents = responses[status]["content"];
+        const std::string type = contents.begin().key();
+        const Json& content = contents.begin().value();
+        CHECK(reply->get_header_value("Content-Type") == type);
+        if (type == "application/json")
+            CHECK(misfit(document, content["schema"], Json::parse(reply->body), path).empty());
+    };
+    for (const auto& [path, methods] : document["paths"].items()) {
+        if (path == "/api/events" || path.ends_with("/file") || !methods.contains("get")) continue;
+        check("get", path, nullptr);
+    }
+    check("post", "/api/jobs", {{"text", recipe}});
+    check("post", "/api/jobs", {{"text", "[part]\n"}});
+    check("post", "/api/jobs", {{"text", 1}});
+    check("post", "/api/values", {{"text", recipe}});
+    check("post", "/api/edit", {{"text", recipe}, {"changes", Json::array()}});
+    check("put", "/api/recipe", {{"text", recipe}, {"path", "a.toml"}});
+    check("get", "/api/outputs/{output}", nullptr);
+    check("delete", "/api/outputs/{output}", nullptr);
+    check("get", "/api/outputs/{output}", nullptr);
+    check("delete", "/api/jobs/{job}", nullptr);
+    check("get", "/api/jobs/{job}/layers/{layer}/contours", nullptr);
+}
+
+}  // namespace openapi_test
