@@ -48,7 +48,8 @@ function extents_of(bytes) {
     return hi.map((one, k) => one - lo[k]);
 }
 
-export function make_mock({ token = randomBytes(8).toString("hex"), recipe = examples[0].text } = {}) {
+/** `finest`: most voxels of a volume along an edge; a volume takes the mock a while. */
+export function make_mock({ token = randomBytes(8).toString("hex"), recipe = examples[0].text, finest = 256 } = {}) {
     const state = { text: recipe, path: recipe ? "part.toml" : null, saved: true, jobs: new Map(),
         extents: new Map(), outputs: new Map(), streams: new Map(), sequences: new Map(), next_output: 1 };
     const send_event = (session, event, data) => {
@@ -128,7 +129,7 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
         };
         if (!rest.length) return job.info;
         if (rest[0] === "curve") return draw.curve(job, ask("values", 400));
-        if (rest[0] === "volume") return bytes("application/octet-stream", draw.volume(job, ask("n", 96)), true);
+        if (rest[0] === "volume") return bytes("application/octet-stream", draw.volume(job, Math.min(finest, ask("n", 96))), true);
         if (rest[0] === "frame.png") return bytes("image/png", draw.frame(ask("width", 512), ask("azimuth", 35)));
         if (rest[0] === "check") {
             for (let done = 0; done <= job.count; done += Math.ceil(job.count / 5)) {

@@ -49,7 +49,6 @@ async function load(): Promise<boolean> {
 }
 
 window.__studio = probe;
-import { stage } from "./view/shown"; import { effect } from "@preact/signals"; effect(()=>{(window as any).__stage=stage.value});
 start_theme();
 const room = document.getElementById("page")!;
 room.replaceChildren();

@@ -50,9 +50,9 @@ export function Field({ setting, spot }: { setting: Setting; spot: Spot }) {
                 send={(next) => set_key(spot, setting, next)} />
             {given ? <button class="reset" title={`Remove ${key}: ${setting.default}`} aria-label={`Remove ${key}`}
                 onClick={() => set_key(spot, setting, null)}>×</button> : <span class="reset" />}
-            {wrong.length > 0 && <ul class="field-mistakes" id={`${id}-wrong`} role="alert">
-                {wrong.map((one) => <li key={one.text}>{one.text.replace(`${name}: `, "")}</li>)}
-            </ul>}
+            {wrong.length > 0 && <div class="field-mistakes" id={`${id}-wrong`} role="alert">
+                {wrong.map((one) => <p key={one.text}>{one.text.replace(`${name}: `, "")}</p>)}
+            </div>}
         </div>
     );
 }

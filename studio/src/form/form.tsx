@@ -16,13 +16,13 @@ function Mistakes() {
         wanted_line.value = { line };
     };
     return (
-        <ul class="mistakes" role="alert">
+        <div class="mistakes" role="alert">
             {list.map((one) => (
-                <li key={one.text}>{one.text}{" "}
+                <p key={one.text}>{one.text}{" "}
                     {one.line !== null && <button class="link" onClick={() => go(one.line!)}>line {one.line}</button>}
-                </li>
+                </p>
             ))}
-        </ul>
+        </div>
     );
 }
 

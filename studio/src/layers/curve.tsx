@@ -38,6 +38,7 @@ function draw_marker(plot: uPlot): void {
     const { ctx, bbox } = plot;
     ctx.save();
     ctx.beginPath();
+    ctx.setLineDash([]);
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);
     ctx.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue("--view-layer");

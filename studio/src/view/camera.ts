@@ -9,6 +9,7 @@ export class Orbit {
     readonly camera = new PerspectiveCamera(28, 1, 0.1, 1000);
     readonly controls: OrbitControls;
     private reach = 0;
+    private half: Triple = [1, 1, 1];
     private middle = new Vector3();
 
     constructor(element: HTMLElement) {
@@ -25,10 +26,12 @@ export class Orbit {
     /** Looks at a box. A box of about the same size as before keeps the view. */
     look_at(lo: Triple, hi: Triple): void {
         const middle = new Vector3(...lo.map((one, k) => (one + hi[k]!) / 2) as Triple);
-        const reach = new Vector3(...lo.map((one, k) => (hi[k]! - one) / 2) as Triple).length();
+        const half = lo.map((one, k) => (hi[k]! - one) / 2) as Triple;
+        const reach = Math.hypot(...half);
         const moved = middle.clone().sub(this.middle).length();
         const same = this.reach > 0 && Math.abs(reach / this.reach - 1) < 0.25 && moved < 0.25 * reach;
         this.middle = middle;
+        this.half = half;
         if (same) return;
         this.reach = reach;
         const direction = this.camera.position.clone().sub(this.controls.target).normalize();
@@ -47,9 +50,7 @@ export class Orbit {
     }
 
     private stand(direction: Vector3): void {
-        const half = (this.camera.fov / 2) * Math.PI / 180;
-        const narrow = Math.min(1, this.camera.aspect);
-        const distance = 0.92 * this.reach / Math.sin(Math.atan(Math.tan(half) * narrow));
+        const distance = this.fitting(direction);
         this.controls.target.copy(this.middle);
         this.camera.position.copy(this.middle).addScaledVector(direction, distance);
         this.camera.near = distance / 100;
@@ -59,6 +60,24 @@ export class Orbit {
         this.camera.updateProjectionMatrix();
         this.controls.update();
         this.camera.updateMatrixWorld();
+    }
+
+    /** The distance from which all corners of the box are seen, with a margin. */
+    private fitting(direction: Vector3): number {
+        const { x, y, z } = direction;
+        const flat = Math.hypot(x, y) || 1e-9;
+        const right: Triple = [-y / flat, x / flat, 0];
+        const up: Triple = [-x * z / flat, -y * z / flat, flat];
+        const tall = Math.tan((this.camera.fov / 2) * Math.PI / 180) * 0.86;
+        const wide = tall * this.camera.aspect;
+        let distance = 0;
+        for (let corner = 0; corner < 8; ++corner) {
+            const at = this.half.map((one, k) => (corner >> k & 1 ? one : -one)) as Triple;
+            const along = (axis: Triple) => axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2];
+            const near = along([x, y, z]);
+            distance = Math.max(distance, near + Math.abs(along(right)) / wide, near + Math.abs(along(up)) / tall);
+        }
+        return distance || 1;
     }
 
     /** Turns round the part by angles in degrees. */

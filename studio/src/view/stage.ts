@@ -74,9 +74,7 @@ export class Stage {
 
     /** Something has changed: draws quickly, and finely when nothing changes for a while. */
     invalidate(): void {
-        this.row = 0;
         clearTimeout(this.settle_timer);
-        this.settle_timer = window.setTimeout(() => this.ask(() => this.draw_rows()), settle);
         this.ask((now) => this.draw(now));
     }
 
@@ -108,6 +106,8 @@ export class Stage {
             this.renderer.draw(this.orbit.camera, { ...this.scene, fine: false, stride: this.pace.scale < 0.6 ? 2.2 : 1.4 });
         }
         this.after_frame();
+        this.row = 0;
+        this.settle_timer = window.setTimeout(() => this.ask(() => this.draw_rows()), settle);
     }
 
     /** Draws the fine picture a few rows a frame, so that a movement can begin at any time. */

@@ -29,7 +29,7 @@ function watch_volume(on: Stage): () => void {
         const volume = read_volume(await get_volume(made, voxels, signal));
         if (job.value?.job !== made.job && voxels === fine) return;
         on.set_volume(volume);
-        shown_voxels.value = voxels;
+        shown_voxels.value = on.voxels;
     });
     const stop = effect(() => {
         const made = job.value;
