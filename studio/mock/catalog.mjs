@@ -8,12 +8,12 @@ const walls = ["cell_min", "cell_max", "wall_min", "wall_max"];
 const periodic = { needs: ["cell", "wall"], takes: ["network", ...walls] };
 
 const kinds = [
-    { section: "part", key: "shape", words: {
+    { section: "part", key: "shape", default: "none", words: {
         none: { needs: [], takes: [] }, sphere: { needs: ["radius"], takes: [] },
         box: { needs: ["size"], takes: [] }, cylinder: { needs: ["radius", "height"], takes: [] },
         capsule: { needs: ["radius", "height"], takes: [] }, torus: { needs: ["radius", "tube"], takes: [] },
         gyroid: { needs: ["size", "period", "thickness"], takes: [] } } },
-    { section: "foam", key: "kind", words: {
+    { section: "foam", key: "kind", default: "voronoi", words: {
         voronoi: { needs: ["cell", "beam"], takes: ["seed", "stretch", "turn", ...beams] },
         kelvin: { needs: ["cell", "beam"], takes: ["seed", "jitter", "stretch", "turn", ...beams] },
         closed: { needs: ["cell", "beam", "wall"],
@@ -21,17 +21,17 @@ const kinds = [
         "k-nearest": { needs: ["cell", "beam"], takes: ["neighbours", "seed", "stretch", "turn", ...beams] },
         gyroid: periodic, "schwarz-p": periodic, "schwarz-d": periodic, neovius: periodic,
         lattice: { needs: ["cell", "beam", "unit_cell|struts"], takes: beams } } },
-    { section: "skin", key: "pattern", words: {
+    { section: "skin", key: "pattern", default: "closed", words: {
         closed: { needs: [], takes: [] },
         voronoi: { needs: ["window", "strut"], takes: ["corner", "seed"] },
         hexagons: { needs: ["window", "strut"], takes: ["corner"] },
         image: { needs: ["image", "image_size", "strut"], takes: ["threshold", "invert"] } } },
-    { section: "region", key: "make", words: {
+    { section: "region", key: "make", default: "", words: {
         solid: { needs: ["field"], takes: ["blend", "tool"] }, empty: { needs: ["field"], takes: ["blend"] },
         foam: { needs: ["field"], takes: ["blend", "cell", "beam", "wall", "window", "modulus", "tool"] },
         skin: { needs: ["field", "thickness"], takes: ["blend", "tool"] },
         blocker: { needs: ["field"], takes: [] }, enforcer: { needs: ["field"], takes: [] } } },
-    { section: "field", key: "kind", words: {
+    { section: "field", key: "kind", default: "formula", words: {
         formula: { needs: ["formula"], takes: ["bounds", "at", "turn"] },
         mesh: { needs: ["file"], takes: ["unit", "scale", "at", "turn"] },
         sphere: { needs: ["radius"], takes: ["at"] }, box: { needs: ["size"], takes: ["at", "turn"] },

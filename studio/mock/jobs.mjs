@@ -69,8 +69,7 @@ function recipe_mistakes({ sections, values, mistakes, machine }) {
         const chosen = table.kinds.find((one) => one.section === section.name);
         if (!chosen) continue;
         const given = section.entries.map((one) => one.key);
-        const setting = find_setting(section.name, chosen.key);
-        const word = section.entries.find((one) => one.key === chosen.key)?.value ?? setting.default;
+        const word = section.entries.find((one) => one.key === chosen.key)?.value ?? chosen.default;
         const kind = chosen.words[word];
         if (!kind) continue;
         for (const need of kind.needs) {
@@ -108,8 +107,8 @@ export function build_job(text, extents) {
     const name = (values["part.mesh"] ?? values["part.shape"]).replace(/\.[a-z0-9]+$/i, "");
     const notes = Number(values["foam.cell"]) > 20 ? ["foam.cell: cells are larger than the part"] : [];
     const info = { job: identity, name, machine: machine.name, backend: machine.backend, process: machine.process,
-        bounds, layers: { count, heights: [[count, height]], height_mm: +(count * height).toFixed(4) }, supports,
-        notes, display };
+        bounds, layers: { count, heights: [[count, height]], height_mm: +(count * height).toFixed(4) }, z0: bounds.lo[2],
+        supports, notes, display };
     return { job: { info, field, bounds, height, count } };
 }
 

@@ -103,7 +103,7 @@ export function paths(job, layer) {
             }
         }
     }
-    return { paths: list, seconds: 2 + list.length * 0.11 };
+    return { paths: list, z: plane(job, layer) };
 }
 
 export function curve(job, values) {
@@ -115,7 +115,7 @@ export function curve(job, values) {
         let a = 0, s = 0;
         for (let y = lo[1] + pitch / 2; y < hi[1]; y += pitch) {
             for (let x = lo[0] + pitch / 2; x < hi[0]; x += pitch) {
-                const z = plane(job, layer);
+                const z = plane(job, Math.min(job.count - 1, layer + Math.floor(step / 2)));
                 a += share(job.field.part(x, y, z), pitch);
                 s += share(job.field.support(x, y, z), pitch);
             }

@@ -14,7 +14,8 @@ import { edit_toml } from "./toml.mjs";
 const dist = fileURLToPath(new URL("../dist/", import.meta.url));
 const kinds_of_files = { ".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css",
     ".svg": "image/svg+xml" };
-const policy = "default-src 'self'; img-src 'self' blob: data:; style-src 'self'";
+const policy = "default-src 'self'; img-src 'self' blob: data:; style-src 'self'; frame-ancestors 'none'; " +
+    "base-uri 'none'; form-action 'none'";
 const mesh_endings = [".stl", ".obj", ".ply", ".3mf"];
 
 class Refusal extends Error {
@@ -149,7 +150,8 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
     function start_output(job, body) {
         const id = state.next_output++;
         const extension = machines.find((one) => one.name === job.info.machine).extension;
-        const output = { output: id, state: "running", done: 0, of: job.count, bytes: 0, message: "",
+        const output = { output: id, state: "running", done: 0, of: job.count, bytes: 0,
+            message: "", is_kept: Boolean(body.file),
             file: body.file || job.info.name + extension };
         state.outputs.set(id, output);
         output.timer = setInterval(() => {
@@ -157,7 +159,7 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
             if (output.done === job.count) {
                 clearInterval(output.timer);
                 output.state = "done";
-                output.bytes = job.count * 1234;
+                output.bytes = extension ? job.count * 1234 : 0;
             }
             send_event(body.session, "output", public_output(output));
         }, 60);

@@ -11,8 +11,7 @@ export function kind_key(table: Table, section: string): KindKey | undefined {
 export function chosen_kind(table: Table, section: string, given: Given): string {
     const chooser = kind_key(table, section);
     if (!chooser) return "";
-    const fallback = table.settings.find((one) => one.section === section && one.key === chooser.key)?.default ?? "";
-    const word = given[chooser.key] ?? fallback;
+    const word = given[chooser.key] ?? chooser.default;
     return word in chooser.words ? word : "";
 }
 

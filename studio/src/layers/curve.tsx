@@ -23,8 +23,9 @@ export function volume_of({ job: made, curve: got }: { job: Job; curve: Curve })
 }
 
 function data_of({ job: made, curve: got }: { job: Job; curve: Curve }): uPlot.AlignedData {
+    const each = got.layers_a_value;  // the one in the middle of them is measured
     const heights = got.area_mm2.map((_, i) => {
-        const { begin, height } = slab_of(made, Math.min(made.layers.count - 1, i * got.layers_a_value));
+        const { begin, height } = slab_of(made, Math.min(made.layers.count - 1, i * each + Math.floor(each / 2)));
         return begin + height / 2;
     });
     return made.supports ? [heights, got.area_mm2, got.support_area_mm2] : [heights, got.area_mm2];

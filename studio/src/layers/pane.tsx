@@ -21,14 +21,15 @@ function Numbers({ made }: { made: Job }) {
     const { begin, height } = slab_of(made, layer.value);
     const drawn = lines.value?.layer === layer.value ? lines.value : null;
     const got = curve.value?.job.job === made.job ? curve.value.curve : null;
-    const by_curve = got?.area_mm2[Math.round(layer.value / got.layers_a_value)];
+    const by_curve = got?.area_mm2[Math.floor(layer.value / got.layers_a_value)];
+    const exact = drawn?.contours !== undefined || got?.layers_a_value === 1;
     const area = drawn?.contours?.part.area ?? by_curve;
     return (
         <dl class="numbers">
             <div><dt>z</dt><dd>{(begin + height).toFixed(2)} mm</dd></div>
             <div><dt>height</dt><dd>{+height.toFixed(4)} mm</dd></div>
-            <div><dt>area</dt><dd>{area === undefined ? "–" : `${area.toFixed(1)} mm²`}</dd></div>
-            {drawn?.paths && <div><dt>time</dt><dd>{drawn.paths.seconds.toFixed(1)} s</dd></div>}
+            <div><dt>area</dt><dd>{area === undefined ? "–" : `${exact ? "" : "≈ "}${area.toFixed(1)} mm²`}</dd></div>
+            {drawn?.paths?.seconds !== undefined && <div><dt>time</dt><dd>{drawn.paths.seconds.toFixed(1)} s</dd></div>}
             {pointer.value && <div><dt>at</dt><dd>{pointer.value.map((one) => one.toFixed(2)).join(", ")}</dd></div>}
         </dl>
     );

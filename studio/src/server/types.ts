@@ -42,6 +42,8 @@ export interface Section {
 export interface KindKey {
     section: string;
     key: string;
+    /** The kind when the key is missing; empty when it is required. */
+    default: string;
     words: Record<string, { needs: string[]; takes: string[] }>;
 }
 
@@ -87,6 +89,8 @@ export interface Job {
     process: string;
     bounds: { lo: Triple; hi: Triple };
     layers: { count: number; heights: [number, number][]; height_mm: number };
+    /** Height of the bed in the space of the job, mm. */
+    z0: number;
     supports: boolean;
     notes: string[];
     display: { width: number; height: number; pixel_x: number; pixel_y: number; corner?: [number, number] } | null;
@@ -108,7 +112,7 @@ export interface Path {
 
 export interface Paths {
     paths: Path[];
-    seconds: number;
+    seconds?: number;
 }
 
 export interface Curve {
@@ -141,11 +145,14 @@ export interface Report {
 
 export interface Output {
     output: number;
-    state: "running" | "done" | "failed" | "cancelled";
+    state: "waiting" | "running" | "done" | "failed" | "cancelled";
     done: number;
     of: number;
     file: string;
+    /** 0 when it is a folder. */
     bytes: number;
+    /** Whether it stays in the folder of the studio. */
+    is_kept: boolean;
     message: string;
 }
 

@@ -65,7 +65,7 @@ function watch_clicks(on: Stage, frame: HTMLElement): () => void {
         if (!down || !made || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
         const box = frame.getBoundingClientRect();
         const place = on.place_at(event.clientX - box.left, event.clientY - box.top);
-        if (place) layer.value = layer_at(made, place[2] - made.bounds.lo[2]);
+        if (place) layer.value = layer_at(made, place[2] - made.z0);
     };
     frame.addEventListener("pointerdown", press);
     frame.addEventListener("pointerup", release);
