@@ -4,9 +4,13 @@ import { after, afterEach, before, beforeEach, test } from "node:test";
 import { open_browser, open_studio } from "./studio.mjs";
 
 let browser, studio;
-before(async () => { browser = await open_browser(); });
+before(async () => {
+    browser = await open_browser();
+});
 after(() => browser.close());
-beforeEach(async () => { studio = await open_studio(browser, { width: 1240, height: 860 }); });
+beforeEach(async () => {
+    studio = await open_studio(browser, { width: 1240, height: 860 });
+});
 afterEach(async () => {
     assert.deepEqual(studio.errors, []);
     await studio.close();
@@ -29,7 +33,10 @@ async function drawn_share(selector) {
         const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
         let other = 0;
         for (let i = 0; i < data.length; i += 4) {
-            const far = Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]);
+            const far =
+                Math.abs(data[i] - data[0]) +
+                Math.abs(data[i + 1] - data[1]) +
+                Math.abs(data[i + 2] - data[2]);
             if (far > 90) ++other;
         }
         return other / (data.length / 4);
@@ -37,9 +44,9 @@ async function drawn_share(selector) {
 }
 
 test("the view draws the part, coarsely and then finely", async () => {
-    assert.ok(await drawn_share(".view") > 0.05);
+    assert.ok((await drawn_share(".view")) > 0.05);
     await studio.until(() => window.__studio.state.voxels > 64);
-    assert.ok(await drawn_share(".view") > 0.05);
+    assert.ok((await drawn_share(".view")) > 0.05);
 });
 
 test("turning the part stays smooth", async (context) => {
@@ -59,7 +66,7 @@ test("turning the part stays smooth", async (context) => {
         await page.mouse.up();
     }
     context.diagnostic(`${best.toFixed(1)} frames a second`);
-    assert.ok(best >= 5, `${best} frames a second`);  // 10 and more where the machine does nothing else
+    assert.ok(best >= 5, `${best} frames a second`); // 10 and more where the machine does nothing else
 });
 
 test("a click on the part goes to its layer", async () => {
@@ -111,7 +118,7 @@ test("the picture of the layer zooms to the pixels of the machine", async () => 
     await page.mouse.move(x, y);
     for (let i = 0; i < 12; ++i) await page.mouse.wheel(0, -200);
     await studio.until(() => window.__studio.state.shown.exact);
-    assert.ok(await drawn_share(".layer-room") > 0.01);
+    assert.ok((await drawn_share(".layer-room")) > 0.01);
 });
 
 test("the check lists faults, a click goes to the layer", async () => {

@@ -1,4 +1,4 @@
-// The page as a whole: accessibility, an absent server, a browser without WebGL2, the address without a token.
+// The page as a whole: accessibility, an absent server, a browser without WebGL2, a wrong token.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -8,13 +8,16 @@ import { open_browser, open_studio, start_server, stop_server } from "./studio.m
 
 const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 let browser;
-before(async () => { browser = await open_browser(); });
+before(async () => {
+    browser = await open_browser();
+});
 after(() => browser.close());
 
 async function violations(page) {
-    await page.evaluate(axe_source);  // evaluated by the test, not by the page: its policy stays as it is
+    await page.evaluate(axe_source); // evaluated by the test, not by the page: its policy stays as it is
     const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-    return found.violations.filter((one) => one.impact === "serious" || one.impact === "critical")
+    return found.violations
+        .filter((one) => one.impact === "serious" || one.impact === "critical")
         .map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(" ")).join(", ")}`);
 }
 
@@ -64,12 +67,21 @@ test("the whole page can be reached by the keyboard", async () => {
     const seen = new Set();
     for (let i = 0; i < 90; ++i) {
         await page.keyboard.press("Tab");
-        seen.add(await page.evaluate(() => {
-            const at = document.activeElement;
-            return at?.getAttribute("aria-label")?.split(".")[0] ?? at?.id ?? "";
-        }));
+        seen.add(
+            await page.evaluate(() => {
+                const at = document.activeElement;
+                return at?.getAttribute("aria-label")?.split(".")[0] ?? at?.id ?? "";
+            }),
+        );
     }
-    const wanted = ["tab-design", "field-foam-0-cell", "cell, slider", "3D view", "Layer", "Picture of layer 201"];
+    const wanted = [
+        "tab-design",
+        "field-foam-0-cell",
+        "cell, slider",
+        "3D view",
+        "Layer",
+        "Picture of layer 201",
+    ];
     for (const name of wanted) assert.ok(seen.has(name), `${name} in ${[...seen].join("; ")}`);
     await page.locator(".view-frame").focus();
     const shot = await page.locator(".view-frame").screenshot();
@@ -85,7 +97,7 @@ test("the page waits for a server that is away, and posts its recipe again", asy
     const { job } = await studio.state();
     await stop_server(studio.mock);
     await page.getByText("The server is away").waitFor();
-    await page.fill("#field-part-0-radius", "14");  // asked for while nobody answers
+    await page.fill("#field-part-0-radius", "14"); // asked for while nobody answers
     const anew = make_mock({ token: "secret" });
     await start_server(anew, studio.port);
     await page.getByText("The server is away").waitFor({ state: "detached" });
@@ -118,7 +130,10 @@ test("without WebGL2 the server draws the part", async () => {
     await plain.close();
 });
 
-for (const [width, height] of [[820, 1180], [390, 844]]) {
+for (const [width, height] of [
+    [820, 1180],
+    [390, 844],
+]) {
     test(`nothing runs over the edge at ${width} px`, async () => {
         const studio = await open_studio(browser, { width, height });
         assert.equal(await studio.page.evaluate(() => document.documentElement.scrollWidth), width);

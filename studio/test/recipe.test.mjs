@@ -4,7 +4,9 @@ import { after, afterEach, before, beforeEach, test } from "node:test";
 import { box_stl, open_browser, open_studio } from "./studio.mjs";
 
 let browser, studio;
-before(async () => { browser = await open_browser(); });
+before(async () => {
+    browser = await open_browser();
+});
 after(() => browser.close());
 beforeEach(async (context) => {
     studio = await open_studio(browser, context.name.startsWith("start:") ? { recipe: "", wait: false } : {});
@@ -14,10 +16,11 @@ afterEach(async () => {
     await studio.close();
 });
 
-const new_layer = () => studio.until(() => {
-    const { job, shown, building } = window.__studio.state;
-    return !building && shown?.job === job;
-});
+const new_layer = () =>
+    studio.until(() => {
+        const { job, shown, building } = window.__studio.state;
+        return !building && shown?.job === job;
+    });
 
 test("the page shows the recipe, and its address no longer shows the token", async () => {
     assert.equal(new URL(studio.page.url()).search, "");
@@ -142,7 +145,11 @@ test("start: a model that is dropped becomes a recipe with layers", async () => 
 test("start: a file of another kind is refused with one message", async () => {
     const { page } = studio;
     await page.waitForSelector(".drop-zone");
-    await page.setInputFiles("input[type=file]", { name: "note.txt", mimeType: "text/plain", buffer: Buffer.from("x") });
+    await page.setInputFiles("input[type=file]", {
+        name: "note.txt",
+        mimeType: "text/plain",
+        buffer: Buffer.from("x"),
+    });
     assert.match(await page.textContent(".notice.error"), /not a model/);
 });
 

@@ -24,7 +24,9 @@ export function applies(table: Table, section: string, key: string, kind: string
     if (!chooser || !chosen || key === chooser.key) return true;
     const mine = [...keys_in(chosen.needs), ...chosen.takes];
     if (mine.includes(key)) return true;
-    return !Object.values(chooser.words).some((one) => keys_in(one.needs).includes(key) || one.takes.includes(key));
+    return !Object.values(chooser.words).some(
+        (one) => keys_in(one.needs).includes(key) || one.takes.includes(key),
+    );
 }
 
 /** The keys that a kind requires; of alternatives that which is given, else the first. */

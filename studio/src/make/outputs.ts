@@ -33,8 +33,16 @@ export async function start(file: string): Promise<void> {
     if (!made) return;
     try {
         const { output } = await start_output(made, file);
-        const begun: Output = { output, state: "waiting", done: 0, of: made.layers.count, file,
-            bytes: 0, is_kept: file !== "", message: "" };
+        const begun: Output = {
+            output,
+            state: "waiting",
+            done: 0,
+            of: made.layers.count,
+            file,
+            bytes: 0,
+            is_kept: file !== "",
+            message: "",
+        };
         rows.value = [{ output: begun, machine: made.machine, begun: Date.now(), rate: 0 }, ...rows.value];
         take_output(await get_output(output));
     } catch (error) {

@@ -15,8 +15,19 @@ export interface Version {
     threads: number;
 }
 
-export type SettingType = "boolean" | "integer" | "number" | "text" | "lines" | "path" | "choice" | "triple" |
-    "graded" | "graded_triple" | "formula" | "rows";
+export type SettingType =
+    | "boolean"
+    | "integer"
+    | "number"
+    | "text"
+    | "lines"
+    | "path"
+    | "choice"
+    | "triple"
+    | "graded"
+    | "graded_triple"
+    | "formula"
+    | "rows";
 
 export interface Setting {
     section: string;
@@ -93,7 +104,13 @@ export interface Job {
     z0: number;
     supports: boolean;
     notes: string[];
-    display: { width: number; height: number; pixel_x: number; pixel_y: number; corner?: [number, number] } | null;
+    display: {
+        width: number;
+        height: number;
+        pixel_x: number;
+        pixel_y: number;
+        corner?: [number, number];
+    } | null;
 }
 
 export interface Contours {

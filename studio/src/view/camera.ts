@@ -25,7 +25,7 @@ export class Orbit {
 
     /** Looks at a box. A box of about the same size as before keeps the view. */
     look_at(lo: Triple, hi: Triple): void {
-        const middle = new Vector3(...lo.map((one, k) => (one + hi[k]!) / 2) as Triple);
+        const middle = new Vector3(...(lo.map((one, k) => (one + hi[k]!) / 2) as Triple));
         const half = lo.map((one, k) => (hi[k]! - one) / 2) as Triple;
         const reach = Math.hypot(...half);
         const moved = middle.clone().sub(this.middle).length();
@@ -45,7 +45,11 @@ export class Orbit {
 
     /** Looks along an axis, from its positive end. */
     look_along(axis: number): void {
-        const from: Triple[] = [[1, 0, 0.001], [0, -1, 0.001], [0, -0.001, 1]];
+        const from: Triple[] = [
+            [1, 0, 0.001],
+            [0, -1, 0.001],
+            [0, -0.001, 1],
+        ];
         this.stand(new Vector3(...from[axis]!).normalize());
     }
 
@@ -67,15 +71,19 @@ export class Orbit {
         const { x, y, z } = direction;
         const flat = Math.hypot(x, y) || 1e-9;
         const right: Triple = [-y / flat, x / flat, 0];
-        const up: Triple = [-x * z / flat, -y * z / flat, flat];
-        const tall = Math.tan((this.camera.fov / 2) * Math.PI / 180) * 0.86;
+        const up: Triple = [(-x * z) / flat, (-y * z) / flat, flat];
+        const tall = Math.tan(((this.camera.fov / 2) * Math.PI) / 180) * 0.86;
         const wide = tall * this.camera.aspect;
         let distance = 0;
         for (let corner = 0; corner < 8; ++corner) {
-            const at = this.half.map((one, k) => (corner >> k & 1 ? one : -one)) as Triple;
+            const at = this.half.map((one, k) => ((corner >> k) & 1 ? one : -one)) as Triple;
             const along = (axis: Triple) => axis[0] * at[0] + axis[1] * at[1] + axis[2] * at[2];
             const near = along([x, y, z]);
-            distance = Math.max(distance, near + Math.abs(along(right)) / wide, near + Math.abs(along(up)) / tall);
+            distance = Math.max(
+                distance,
+                near + Math.abs(along(right)) / wide,
+                near + Math.abs(along(up)) / tall,
+            );
         }
         return distance || 1;
     }
@@ -84,21 +92,29 @@ export class Orbit {
     turn(sideways: number, upward: number): void {
         const arm = this.camera.position.clone().sub(this.controls.target);
         const length = arm.length();
-        const azimuth = Math.atan2(arm.y, arm.x) + sideways * Math.PI / 180;
-        const most = 89.5 * Math.PI / 180;
-        const up = Math.asin(arm.z / length) + upward * Math.PI / 180;
+        const azimuth = Math.atan2(arm.y, arm.x) + (sideways * Math.PI) / 180;
+        const most = (89.5 * Math.PI) / 180;
+        const up = Math.asin(arm.z / length) + (upward * Math.PI) / 180;
         const elevation = Math.max(-most, Math.min(most, up));
         const flat = Math.cos(elevation) * length;
-        this.camera.position.copy(this.controls.target).add(
-            new Vector3(Math.cos(azimuth) * flat, Math.sin(azimuth) * flat, Math.sin(elevation) * length));
+        this.camera.position
+            .copy(this.controls.target)
+            .add(
+                new Vector3(Math.cos(azimuth) * flat, Math.sin(azimuth) * flat, Math.sin(elevation) * length),
+            );
         this.controls.update();
     }
 
     zoom(factor: number): void {
         const arm = this.camera.position.clone().sub(this.controls.target);
         const length = arm.length();
-        const wanted = Math.max(this.controls.minDistance, Math.min(this.controls.maxDistance, length * factor));
-        this.camera.position.copy(this.controls.target).addScaledVector(arm.multiplyScalar(1 / length), wanted);
+        const wanted = Math.max(
+            this.controls.minDistance,
+            Math.min(this.controls.maxDistance, length * factor),
+        );
+        this.camera.position
+            .copy(this.controls.target)
+            .addScaledVector(arm.multiplyScalar(1 / length), wanted);
         this.controls.update();
     }
 
@@ -106,6 +122,9 @@ export class Orbit {
     angles(): { azimuth: number; elevation: number } {
         const arm = this.camera.position.clone().sub(this.controls.target);
         const degrees = 180 / Math.PI;
-        return { azimuth: Math.atan2(arm.y, arm.x) * degrees, elevation: Math.asin(arm.z / arm.length()) * degrees };
+        return {
+            azimuth: Math.atan2(arm.y, arm.x) * degrees,
+            elevation: Math.asin(arm.z / arm.length()) * degrees,
+        };
     }
 }

@@ -33,10 +33,10 @@ float around(vec3 p) {  // as value, but nothing is outside the box
 
 vec3 gradient(vec3 p) {  // samples on two shells, wide enough to smooth the steps between slices
     const vec3 k = vec3(1.0, -1.0, 0.0);
-    float h = 1.15 * voxel, g = 2.1 * voxel;
+    float h = 1.1 * voxel, g = 1.9 * voxel;
     if (!fine) {
-        return -(k.xyy * around(p + k.xyy * h) + k.yyx * around(p + k.yyx * h) + k.yxy * around(p + k.yxy * h) +
-                 k.xxx * around(p + k.xxx * h));
+        return -(k.xyy * around(p + k.xyy * h) + k.yyx * around(p + k.yyx * h) +
+                 k.yxy * around(p + k.yxy * h) + k.xxx * around(p + k.xxx * h));
     }
     vec3 sum = k.xyy * around(p + k.xyy * h) + k.yyx * around(p + k.yyx * h) + k.yxy * around(p + k.yxy * h) +
                k.xxx * around(p + k.xxx * h) + k.yxx * around(p + k.yxx * h) + k.xxy * around(p + k.xxy * h) +
