@@ -77,13 +77,19 @@ export function add_section(section: string): void {
     );
 }
 
-export function add_entry(section: string): void {
+function entry_changes(section: string, fields: string[]): Change[] {
     const index = headers(text.value).filter((one) => one.section === section).length;
-    const first = first_values(table.value, section, names_in("field"), names_in(section));
-    edit(
-        Object.entries(first).map(([key, value]) => ({ section, index, key, value })),
-        `add ${section} ${index}`,
-    );
+    const first = first_values(table.value, section, fields, names_in(section));
+    return Object.entries(first).map(([key, value]) => ({ section, index, key, value }));
+}
+
+/** Adds an entry to a list. A region is where a field is: without fields it brings one. */
+export function add_entry(section: string): void {
+    const fields = names_in("field");
+    const before = section === "region" && !fields.length ? entry_changes("field", []) : [];
+    const made = before.find((one) => one.key === "name")?.value;
+    const changes = [...before, ...entry_changes(section, made ? [made] : fields)];
+    edit(changes, `add ${section} ${Date.now()}`);
 }
 
 export function remove(spot: Spot): void {

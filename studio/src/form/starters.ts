@@ -46,8 +46,6 @@ const starters: Record<string, string> = {
     "skin.window": "3",
     "skin.strut": "0.8",
     "frame.beam": "0.5",
-    "support.kind": "bridges",
-    "material.name": "pla",
     "field.radius": "5",
     "field.size": "10,10,10",
     "field.height": "20",
@@ -72,14 +70,23 @@ const starters: Record<string, string> = {
     "region.thickness": "1.2",
     "hole.at": "0,0,0",
     "hole.radius": "1.5",
-    "load.face": "+z",
-    "load.force": "0,0,-10",
-    "anchor.face": "-z",
-    "cut.at": "0,0,0",
-    "cut.normal": "0,0,1",
     "element.length": "10",
     "element.diameter": "8",
     "element.width": "1.5",
+};
+
+/** Sections that begin with values of their own. */
+const first: Record<string, Given> = {
+    support: { kind: "bridges" },
+    material: { name: "pla" },
+    load: { face: "+z", force: "0,0,-10" },
+    anchor: { face: "-z" },
+    cavity: { wall: "1" },
+    shield: { gap: "2" },
+    check: { process: "usual" },
+    cut: { at: "0,0,0", normal: "0,0,1" },
+    output: { beams: "beams.3mf" },
+    plate: { copies: "2" },
 };
 
 /** The default as a value, when it is one and not a description. */
@@ -112,35 +119,28 @@ export function starter(setting: Setting): string | null {
 /** Values of a new section, or of a new entry of a list. `taken`: names that other entries have. */
 export function first_values(table: Table, section: string, fields: string[], taken: string[]): Given {
     const settings = settings_of(table, section);
-    const values: Given = {};
+    const values: Given = { ...first[section] };
     const put = (key: string) => {
         const setting = settings.find((one) => one.key === key);
-        const value = setting && starter(setting);
-        if (value) values[key] = value;
+        const value = setting && !(key in values) ? starter(setting) : null;
+        if (value !== null) values[key] = value;
     };
-    if (settings.some((one) => one.key === "name") && section !== "material") {
+    if (!first[section] && settings.some((one) => one.key === "name")) {
         let number = 1;
         while (taken.includes(`${section}_${number}`)) ++number;
         values.name = `${section}_${number}`;
     }
     if (section === "region" && fields[0]) values.field = fields[0];
     const chooser = kind_key(table, section);
-    const choosing = settings.find((one) => one.key === chooser?.key);
-    if (choosing && (plain_default(choosing) === null || starters[`${section}.${choosing.key}`]))
-        put(choosing.key);
-    for (const key of needed(table, section, chosen_kind(table, section, values), values)) {
-        if (!(key in values)) put(key);
+    if (chooser && (!chooser.default || `${section}.${chooser.key}` in starters)) put(chooser.key);
+    for (const key of needed(table, section, chosen_kind(table, section, values), values)) put(key);
+    for (const { key, default: text } of settings) {
+        const is_required = text === "required" || text === `required in [${section}]`;
+        if (is_required && (!chooser || `${section}.${key}` in starters)) put(key);
     }
-    for (const { key, default: text } of settings)
-        if (text === "required" || text === `required in [${section}]`) {
-            if (!(key in values) && (!chooser || Object.keys(starters).includes(`${section}.${key}`)))
-                put(key);
-        }
-    if (section === "load" || section === "anchor" || section === "support" || section === "material") {
-        for (const name of Object.keys(starters))
-            if (name.startsWith(`${section}.`)) put(name.slice(section.length + 1));
+    if (!Object.keys(values).length) {  // any key will do: it takes its default
+        const usable = settings.find((one) => plain_default(one) !== null);
+        if (usable) put(usable.key);
     }
-    if (Object.keys(values).length) return values;
-    const usable = settings.find((one) => plain_default(one) !== null);
-    return usable ? { [usable.key]: plain_default(usable)! } : {};
+    return values;
 }
