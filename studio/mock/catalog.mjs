@@ -8,42 +8,99 @@ const walls = ["cell_min", "cell_max", "wall_min", "wall_max"];
 const periodic = { needs: ["cell", "wall"], takes: ["network", ...walls] };
 
 const kinds = [
-    { section: "part", key: "shape", words: {
-        none: { needs: [], takes: [] }, sphere: { needs: ["radius"], takes: [] },
-        box: { needs: ["size"], takes: [] }, cylinder: { needs: ["radius", "height"], takes: [] },
-        capsule: { needs: ["radius", "height"], takes: [] }, torus: { needs: ["radius", "tube"], takes: [] },
-        gyroid: { needs: ["size", "period", "thickness"], takes: [] } } },
-    { section: "foam", key: "kind", words: {
-        voronoi: { needs: ["cell", "beam"], takes: ["seed", "stretch", "turn", ...beams] },
-        kelvin: { needs: ["cell", "beam"], takes: ["seed", "jitter", "stretch", "turn", ...beams] },
-        closed: { needs: ["cell", "beam", "wall"],
-            takes: ["wall_min", "wall_max", "window", "seed", "stretch", "turn", ...beams] },
-        "k-nearest": { needs: ["cell", "beam"], takes: ["neighbours", "seed", "stretch", "turn", ...beams] },
-        gyroid: periodic, "schwarz-p": periodic, "schwarz-d": periodic, neovius: periodic,
-        lattice: { needs: ["cell", "beam", "unit_cell|struts"], takes: beams } } },
-    { section: "skin", key: "pattern", words: {
-        closed: { needs: [], takes: [] },
-        voronoi: { needs: ["window", "strut"], takes: ["corner", "seed"] },
-        hexagons: { needs: ["window", "strut"], takes: ["corner"] },
-        image: { needs: ["image", "image_size", "strut"], takes: ["threshold", "invert"] } } },
-    { section: "region", key: "make", words: {
-        solid: { needs: ["field"], takes: ["blend", "tool"] }, empty: { needs: ["field"], takes: ["blend"] },
-        foam: { needs: ["field"], takes: ["blend", "cell", "beam", "wall", "window", "modulus", "tool"] },
-        skin: { needs: ["field", "thickness"], takes: ["blend", "tool"] },
-        blocker: { needs: ["field"], takes: [] }, enforcer: { needs: ["field"], takes: [] } } },
-    { section: "field", key: "kind", words: {
-        formula: { needs: ["formula"], takes: ["bounds", "at", "turn"] },
-        mesh: { needs: ["file"], takes: ["unit", "scale", "at", "turn"] },
-        sphere: { needs: ["radius"], takes: ["at"] }, box: { needs: ["size"], takes: ["at", "turn"] },
-        cylinder: { needs: ["radius", "height"], takes: ["at", "turn"] },
-        capsule: { needs: ["radius", "height"], takes: ["at", "turn"] },
-        torus: { needs: ["radius", "tube"], takes: ["at", "turn"] } } },
+    {
+        section: "part",
+        key: "shape",
+        default: "none",
+        words: {
+            none: { needs: [], takes: [] },
+            sphere: { needs: ["radius"], takes: [] },
+            box: { needs: ["size"], takes: [] },
+            cylinder: { needs: ["radius", "height"], takes: [] },
+            capsule: { needs: ["radius", "height"], takes: [] },
+            torus: { needs: ["radius", "tube"], takes: [] },
+            gyroid: { needs: ["size", "period", "thickness"], takes: [] },
+        },
+    },
+    {
+        section: "foam",
+        key: "kind",
+        default: "voronoi",
+        words: {
+            voronoi: { needs: ["cell", "beam"], takes: ["seed", "stretch", "turn", ...beams] },
+            kelvin: { needs: ["cell", "beam"], takes: ["seed", "jitter", "stretch", "turn", ...beams] },
+            closed: {
+                needs: ["cell", "beam", "wall"],
+                takes: ["wall_min", "wall_max", "window", "seed", "stretch", "turn", ...beams],
+            },
+            "k-nearest": {
+                needs: ["cell", "beam"],
+                takes: ["neighbours", "seed", "stretch", "turn", ...beams],
+            },
+            gyroid: periodic,
+            "schwarz-p": periodic,
+            "schwarz-d": periodic,
+            neovius: periodic,
+            lattice: { needs: ["cell", "beam", "unit_cell|struts"], takes: beams },
+        },
+    },
+    {
+        section: "skin",
+        key: "pattern",
+        default: "closed",
+        words: {
+            closed: { needs: [], takes: [] },
+            voronoi: { needs: ["window", "strut"], takes: ["corner", "seed"] },
+            hexagons: { needs: ["window", "strut"], takes: ["corner"] },
+            image: { needs: ["image", "image_size", "strut"], takes: ["threshold", "invert"] },
+        },
+    },
+    {
+        section: "region",
+        key: "make",
+        default: "",
+        words: {
+            solid: { needs: ["field"], takes: ["blend", "tool"] },
+            empty: { needs: ["field"], takes: ["blend"] },
+            foam: { needs: ["field"], takes: ["blend", "cell", "beam", "wall", "window", "modulus", "tool"] },
+            skin: { needs: ["field", "thickness"], takes: ["blend", "tool"] },
+            blocker: { needs: ["field"], takes: [] },
+            enforcer: { needs: ["field"], takes: [] },
+        },
+    },
+    {
+        section: "field",
+        key: "kind",
+        default: "formula",
+        words: {
+            formula: { needs: ["formula"], takes: ["bounds", "at", "turn"] },
+            mesh: { needs: ["file"], takes: ["unit", "scale", "at", "turn"] },
+            sphere: { needs: ["radius"], takes: ["at"] },
+            box: { needs: ["size"], takes: ["at", "turn"] },
+            cylinder: { needs: ["radius", "height"], takes: ["at", "turn"] },
+            capsule: { needs: ["radius", "height"], takes: ["at", "turn"] },
+            torus: { needs: ["radius", "tube"], takes: ["at", "turn"] },
+        },
+    },
 ];
 
-const resin = (name, description, backend, extension, width, height, pixel) =>
-    ({ name, description, backend, process: "resin", extension, width, height, pixel });
-const filament = (name, description) =>
-    ({ name, description, backend: "gcode", process: "filament", extension: ".gcode" });
+const resin = (name, description, backend, extension, width, height, pixel) => ({
+    name,
+    description,
+    backend,
+    process: "resin",
+    extension,
+    width,
+    height,
+    pixel,
+});
+const filament = (name, description) => ({
+    name,
+    description,
+    backend: "gcode",
+    process: "filament",
+    extension: ".gcode",
+});
 
 export const profiles = [
     resin("elegoo-mars-4-ultra", "Elegoo Mars 4 Ultra", "goo", ".goo", 8520, 4320, 0.018),
@@ -54,12 +111,19 @@ export const profiles = [
     filament("voron-2.4-300", "Voron 2.4, 300 mm, nozzle 0.4 mm, Klipper firmware"),
 ];
 
-export const machines = profiles.map(({ name, description, backend, process, extension }) =>
-    ({ name, description, backend, process, extension }));
+export const machines = profiles.map(({ name, description, backend, process, extension }) => ({
+    name,
+    description,
+    backend,
+    process,
+    extension,
+}));
 
 export const examples = [
-    { name: "sphere_foam", title: "A ball of open-cell foam, cut by the sphere it fills", text:
-`# A ball of open-cell foam, cut by the sphere it fills.
+    {
+        name: "sphere_foam",
+        title: "A ball of open-cell foam, cut by the sphere it fills",
+        text: `# A ball of open-cell foam, cut by the sphere it fills.
 
 [part]
 shape = "sphere"    # centred at the origin
@@ -75,9 +139,12 @@ height = 0.05       # mm
 
 [printer]
 profile = "prusa-sl1s"
-` },
-    { name: "capsule_shell", title: "A capsule with a closed skin over a foam core", text:
-`# A capsule with a closed skin over a foam core.
+`,
+    },
+    {
+        name: "capsule_shell",
+        title: "A capsule with a closed skin over a foam core",
+        text: `# A capsule with a closed skin over a foam core.
 
 [part]
 shape = "capsule"
@@ -100,9 +167,12 @@ height = 0.1        # mm
 
 [printer]
 profile = "generic-8k"
-` },
-    { name: "graded_bar", title: "A bar whose cells grow with the height, as G-code", text:
-`# A bar whose cells grow with the height.
+`,
+    },
+    {
+        name: "graded_bar",
+        title: "A bar whose cells grow with the height, as G-code",
+        text: `# A bar whose cells grow with the height.
 
 [part]
 shape = "box"
@@ -128,7 +198,8 @@ height = 0.2        # mm
 
 [printer]
 profile = "marlin"
-` },
+`,
+    },
 ];
 
 export const table = { sections, settings, kinds };

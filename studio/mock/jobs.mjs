@@ -32,7 +32,9 @@ export function read_values(text) {
     const given = [];
     for (const section of sections) {
         if (section.list) {
-            (lists[section.name] ??= []).push(Object.fromEntries(section.entries.map((one) => [one.key, one.value])));
+            (lists[section.name] ??= []).push(
+                Object.fromEntries(section.entries.map((one) => [one.key, one.value])),
+            );
             continue;
         }
         for (const { key, value } of section.entries) {
@@ -62,31 +64,43 @@ function recipe_mistakes({ sections, values, mistakes, machine }) {
             const name = `${section.name}.${key}`;
             let wrong = setting ? objection(setting, value) : "unknown key";
             if (setting && !wrong && graded_types.includes(setting.type)) {
-                try { graded(value)(1, 1, 1, 1); } catch (error) { wrong = error.message; }
+                try {
+                    graded(value)(1, 1, 1, 1);
+                } catch (error) {
+                    wrong = error.message;
+                }
             }
             if (wrong) found.push({ line, text: `${name}: ${wrong}` });
         }
         const chosen = table.kinds.find((one) => one.section === section.name);
         if (!chosen) continue;
         const given = section.entries.map((one) => one.key);
-        const setting = find_setting(section.name, chosen.key);
-        const word = section.entries.find((one) => one.key === chosen.key)?.value ?? setting.default;
+        const word = section.entries.find((one) => one.key === chosen.key)?.value ?? chosen.default;
         const kind = chosen.words[word];
         if (!kind) continue;
         for (const need of kind.needs) {
             if (need.split("|").some((key) => given.includes(key))) continue;
-            found.push({ line: section.line, text: `${section.name}.${need}: missing, required by kind ${word}` });
+            found.push({
+                line: section.line,
+                text: `${section.name}.${need}: missing, required by kind ${word}`,
+            });
         }
         const listed = Object.values(chosen.words).flatMap((one) => [...one.needs, ...one.takes]);
         for (const { key, line } of section.entries) {
-            if (!listed.includes(key) || kind.needs.join("|").split("|").includes(key) || kind.takes.includes(key)) continue;
+            if (
+                !listed.includes(key) ||
+                kind.needs.join("|").split("|").includes(key) ||
+                kind.takes.includes(key)
+            )
+                continue;
             found.push({ line, text: `${section.name}.${key}: does not apply to kind ${word}` });
         }
     }
     if (!values["part.mesh"] && (values["part.shape"] ?? "none") === "none") {
         found.push({ line: null, text: "part.mesh: a mesh, a shape or a field must be given" });
     }
-    if (!machine) found.push({ line: null, text: `printer.profile: unknown machine ${values["printer.profile"]}` });
+    if (!machine)
+        found.push({ line: null, text: `printer.profile: unknown machine ${values["printer.profile"]}` });
     return found;
 }
 
@@ -102,31 +116,89 @@ export function build_job(text, extents) {
     const total = field.hi[2] - field.lo[2];
     const count = Math.max(1, Math.ceil(total / height));
     const display = machine.width
-        ? { width: machine.width, height: machine.height, pixel_x: machine.pixel, pixel_y: machine.pixel } : null;
-    const identity = createHash("sha256").update(JSON.stringify([values, lists])).digest("hex").slice(0, 32);
+        ? { width: machine.width, height: machine.height, pixel_x: machine.pixel, pixel_y: machine.pixel }
+        : null;
+    const identity = createHash("sha256")
+        .update(JSON.stringify([values, lists]))
+        .digest("hex")
+        .slice(0, 32);
     const bounds = { lo: field.lo, hi: field.hi };
     const name = (values["part.mesh"] ?? values["part.shape"]).replace(/\.[a-z0-9]+$/i, "");
     const notes = Number(values["foam.cell"]) > 20 ? ["foam.cell: cells are larger than the part"] : [];
-    const info = { job: identity, name, machine: machine.name, backend: machine.backend, process: machine.process,
-        bounds, layers: { count, heights: [[count, height]], height_mm: +(count * height).toFixed(4) }, supports,
-        notes, display };
+    const info = {
+        job: identity,
+        name,
+        machine: machine.name,
+        backend: machine.backend,
+        process: machine.process,
+        bounds,
+        layers: { count, heights: [[count, height]], height_mm: +(count * height).toFixed(4) },
+        z0: bounds.lo[2],
+        supports,
+        notes,
+        display,
+    };
     return { job: { info, field, bounds, height, count } };
 }
 
 /** A report in the shape of `lamella check --json`. */
 export function check(job) {
     const middle = Math.floor(job.count / 2);
-    const place = (layer, x, y, size) => ({ size_mm: size, at_mm: [x, y, job.bounds.lo[2] + (layer + 0.5) * job.height],
-        layer, first_layer: layer, end_layer: layer + 3, box_mm: { lo: [x - 1, y - 1, 0], hi: [x + 1, y + 1, 1] } });
+    const place = (layer, x, y, size) => ({
+        size_mm: size,
+        at_mm: [x, y, job.bounds.lo[2] + (layer + 0.5) * job.height],
+        layer,
+        first_layer: layer,
+        end_layer: layer + 3,
+        box_mm: { lo: [x - 1, y - 1, 0], hi: [x + 1, y + 1, 1] },
+    });
     const { lo, hi } = job.bounds;
-    return { part: job.info.name, machine: job.info.machine, process: job.info.process, passed: false,
-        layers: job.count, layer_height_mm: job.height, checks: [
-            { check: "connectivity", verdict: "fail", passed: true, limit: "one piece, but for crumbs", count: 0, worst: [] },
-            { check: "overhangs", verdict: "fail", passed: false, limit: "at most 0.225 mm over the layer below", count: 2,
-                worst: [place(Math.floor(job.count / 6), lo[0] * 0.5, hi[1] * 0.2, 2.37),
-                    place(Math.floor(job.count / 4), hi[0] * 0.6, 0, 0.92)] },
-            { check: "thickness", verdict: "warn", passed: false, limit: "walls and struts of at least 0.4 mm", count: 5,
-                worst: [place(middle, 0, hi[1] * 0.5, 0.21), place(middle + 4, hi[0] * 0.3, lo[1] * 0.4, 0.33)] },
-            { check: "cups", verdict: "warn", passed: true, limit: "no suction cup above 10 mm3", count: 0, worst: [] },
-        ] };
+    return {
+        part: job.info.name,
+        machine: job.info.machine,
+        process: job.info.process,
+        passed: false,
+        layers: job.count,
+        layer_height_mm: job.height,
+        checks: [
+            {
+                check: "connectivity",
+                verdict: "fail",
+                passed: true,
+                limit: "one piece, but for crumbs",
+                count: 0,
+                worst: [],
+            },
+            {
+                check: "overhangs",
+                verdict: "fail",
+                passed: false,
+                limit: "at most 0.225 mm over the layer below",
+                count: 2,
+                worst: [
+                    place(Math.floor(job.count / 6), lo[0] * 0.5, hi[1] * 0.2, 2.37),
+                    place(Math.floor(job.count / 4), hi[0] * 0.6, 0, 0.92),
+                ],
+            },
+            {
+                check: "thickness",
+                verdict: "warn",
+                passed: false,
+                limit: "walls and struts of at least 0.4 mm",
+                count: 5,
+                worst: [
+                    place(middle, 0, hi[1] * 0.5, 0.21),
+                    place(middle + 4, hi[0] * 0.3, lo[1] * 0.4, 0.33),
+                ],
+            },
+            {
+                check: "cups",
+                verdict: "warn",
+                passed: true,
+                limit: "no suction cup above 10 mm3",
+                count: 0,
+                worst: [],
+            },
+        ],
+    };
 }

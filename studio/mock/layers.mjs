@@ -10,9 +10,11 @@ export function plane(job, layer) {
 
 export function mask(job, layer, window, width, colours) {
     const { lo, hi } = job.bounds;
-    const x0 = window.x0 ?? lo[0], x1 = window.x1 ?? hi[0];
-    const y0 = window.y0 ?? lo[1], y1 = window.y1 ?? hi[1];
-    const height = Math.max(1, Math.round(width * (y1 - y0) / (x1 - x0)));
+    const x0 = window.x0 ?? lo[0],
+        x1 = window.x1 ?? hi[0];
+    const y0 = window.y0 ?? lo[1],
+        y1 = window.y1 ?? hi[1];
+    const height = Math.max(1, Math.round((width * (y1 - y0)) / (x1 - x0)));
     const pitch = (x1 - x0) / width;
     const z = plane(job, layer);
     const channels = colours ? 3 : 1;
@@ -28,9 +30,14 @@ export function mask(job, layer, window, width, colours) {
                 bytes[at] = 255 * Math.max(part, 0.6 * support);
                 continue;
             }
-            const base = [0x10 + (0x59 - 0x10) * support, 0x14 + (0x8f - 0x14) * support,
-                0x18 + (0xcc - 0x18) * support];
-            [0xdf, 0xe8, 0xf2].forEach((full, c) => { bytes[at + c] = base[c] + (full - base[c]) * part; });
+            const base = [
+                0x10 + (0x59 - 0x10) * support,
+                0x14 + (0x8f - 0x14) * support,
+                0x18 + (0xcc - 0x18) * support,
+            ];
+            [0xdf, 0xe8, 0xf2].forEach((full, c) => {
+                bytes[at + c] = base[c] + (full - base[c]) * part;
+            });
         }
     }
     return png(width, height, channels, bytes);
@@ -40,7 +47,8 @@ export function mask(job, layer, window, width, colours) {
 export function contours(job, layer, pitch = 0.4) {
     const { lo, hi } = job.bounds;
     const z = plane(job, layer);
-    const nx = Math.ceil((hi[0] - lo[0]) / pitch) + 3, ny = Math.ceil((hi[1] - lo[1]) / pitch) + 3;
+    const nx = Math.ceil((hi[0] - lo[0]) / pitch) + 3,
+        ny = Math.ceil((hi[1] - lo[1]) / pitch) + 3;
     const at = (i, j) => [lo[0] + (i - 1) * pitch, lo[1] + (j - 1) * pitch];
     const value = new Float64Array(nx * ny);
     let area = 0;
@@ -59,15 +67,23 @@ export function contours(job, layer, pitch = 0.4) {
     };
     for (let j = 0; j + 1 < ny; ++j) {
         for (let i = 0; i + 1 < nx; ++i) {
-            const corner = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+            const corner = [
+                [i, j],
+                [i + 1, j],
+                [i + 1, j + 1],
+                [i, j + 1],
+            ];
             const inside = corner.map(([u, v]) => value[v * nx + u] < 0);
-            const starts = [], ends = [];
+            const starts = [],
+                ends = [];
             for (let k = 0; k < 4; ++k) {
                 const other = (k + 1) % 4;
                 if (inside[k] === inside[other]) continue;
                 (inside[k] ? starts : ends).push(point(...corner[k], ...corner[other]));
             }
-            starts.forEach((start, k) => next.set(start.map((c) => c.toFixed(6)).join(), [start, ends[k] ?? ends[0]]));
+            starts.forEach((start, k) =>
+                next.set(start.map((c) => c.toFixed(6)).join(), [start, ends[k] ?? ends[0]]),
+            );
         }
     }
     const loops = [];
@@ -87,8 +103,14 @@ export function contours(job, layer, pitch = 0.4) {
 
 export function paths(job, layer) {
     const walls = contours(job, layer).contours;
-    const list = walls.map(({ points }, i) => ({ role: i % 3 ? "inner wall" : "outer wall", tool: 0, width: 0.45,
-        speed: i % 3 ? 60 : 30, closed: true, points }));
+    const list = walls.map(({ points }, i) => ({
+        role: i % 3 ? "inner wall" : "outer wall",
+        tool: 0,
+        width: 0.45,
+        speed: i % 3 ? 60 : 30,
+        closed: true,
+        points,
+    }));
     const { lo, hi } = job.bounds;
     const z = plane(job, layer);
     for (let y = lo[1] + 0.5; y < hi[1]; y += 1.2) {
@@ -103,19 +125,21 @@ export function paths(job, layer) {
             }
         }
     }
-    return { paths: list, seconds: 2 + list.length * 0.11 };
+    return { paths: list, z: plane(job, layer) };
 }
 
 export function curve(job, values) {
     const step = Math.max(1, Math.ceil(job.count / values));
-    const area = [], support = [];
+    const area = [],
+        support = [];
     const { lo, hi } = job.bounds;
     const pitch = Math.max(hi[0] - lo[0], hi[1] - lo[1]) / 60;
     for (let layer = 0; layer < job.count; layer += step) {
-        let a = 0, s = 0;
+        let a = 0,
+            s = 0;
         for (let y = lo[1] + pitch / 2; y < hi[1]; y += pitch) {
             for (let x = lo[0] + pitch / 2; x < hi[0]; x += pitch) {
-                const z = plane(job, layer);
+                const z = plane(job, Math.min(job.count - 1, layer + Math.floor(step / 2)));
                 a += share(job.field.part(x, y, z), pitch);
                 s += share(job.field.support(x, y, z), pitch);
             }
@@ -138,7 +162,11 @@ export function volume(job, n) {
     for (let k = 0; k < size[2]; ++k) {
         for (let j = 0; j < size[1]; ++j) {
             for (let i = 0; i < size[0]; ++i) {
-                const p = [lo[0] + (i + 0.5) * step[0], lo[1] + (j + 0.5) * step[1], lo[2] + (k + 0.5) * step[2]];
+                const p = [
+                    lo[0] + (i + 0.5) * step[0],
+                    lo[1] + (j + 0.5) * step[1],
+                    lo[2] + (k + 0.5) * step[2],
+                ];
                 data[at++] = 255 * share(job.field.part(...p), voxel);
                 data[at++] = 255 * share(job.field.support(...p), voxel);
             }
@@ -152,12 +180,15 @@ export function volume(job, n) {
 /** A round shaded picture: the mock has no renderer. */
 export function frame(width, azimuth) {
     const bytes = new Uint8Array(width * width);
-    const light = azimuth * Math.PI / 180;
+    const light = (azimuth * Math.PI) / 180;
     for (let j = 0; j < width; ++j) {
         for (let i = 0; i < width; ++i) {
-            const x = (i / width - 0.5) * 2.4, y = (j / width - 0.5) * 2.4;
+            const x = (i / width - 0.5) * 2.4,
+                y = (j / width - 0.5) * 2.4;
             const r = Math.hypot(x, y);
-            if (r < 1) bytes[j * width + i] = 90 + 140 * Math.max(0, Math.cos(light) * x - y * 0.6 + Math.sqrt(1 - r * r) * 0.6);
+            if (r < 1)
+                bytes[j * width + i] =
+                    90 + 140 * Math.max(0, Math.cos(light) * x - y * 0.6 + Math.sqrt(1 - r * r) * 0.6);
         }
     }
     return png(width, width, 1, bytes);

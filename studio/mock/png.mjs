@@ -17,9 +17,16 @@ export function png(width, height, channels, bytes) {
     head.set([8, channels === 3 ? 2 : 0, 0, 0, 0], 8);
     const rows = Buffer.alloc(height * (width * channels + 1));
     for (let y = 0; y < height; ++y) {
-        rows.set(bytes.subarray(y * width * channels, (y + 1) * width * channels), y * (width * channels + 1) + 1);
+        rows.set(
+            bytes.subarray(y * width * channels, (y + 1) * width * channels),
+            y * (width * channels + 1) + 1,
+        );
     }
     const magic = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]);
-    return Buffer.concat([magic, chunk("IHDR", head), chunk("IDAT", deflateSync(rows, { level: 1 })),
-        chunk("IEND", Buffer.alloc(0))]);
+    return Buffer.concat([
+        magic,
+        chunk("IHDR", head),
+        chunk("IDAT", deflateSync(rows, { level: 1 })),
+        chunk("IEND", Buffer.alloc(0)),
+    ]);
 }

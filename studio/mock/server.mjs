@@ -12,9 +12,15 @@ import * as draw from "./layers.mjs";
 import { edit_toml } from "./toml.mjs";
 
 const dist = fileURLToPath(new URL("../dist/", import.meta.url));
-const kinds_of_files = { ".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css",
-    ".svg": "image/svg+xml" };
-const policy = "default-src 'self'; img-src 'self' blob: data:; style-src 'self'";
+const kinds_of_files = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".svg": "image/svg+xml",
+};
+const policy =
+    "default-src 'self'; img-src 'self' blob: data:; style-src 'self'; frame-ancestors 'none'; " +
+    "base-uri 'none'; form-action 'none'";
 const mesh_endings = [".stl", ".obj", ".ply", ".3mf"];
 
 class Refusal extends Error {
@@ -37,7 +43,8 @@ function read_body(request) {
 /** The size of a binary STL's box; of other files that of the mock's pebble. */
 function extents_of(bytes) {
     if (bytes.length < 134 || bytes.length !== 84 + 50 * bytes.readUInt32LE(80)) return [24, 30, 36];
-    const lo = [1e9, 1e9, 1e9], hi = [-1e9, -1e9, -1e9];
+    const lo = [1e9, 1e9, 1e9],
+        hi = [-1e9, -1e9, -1e9];
     for (let at = 84; at < bytes.length; at += 50) {
         for (let k = 0; k < 9; ++k) {
             const value = bytes.readFloatLE(at + 12 + 4 * k);
@@ -48,9 +55,23 @@ function extents_of(bytes) {
     return hi.map((one, k) => one - lo[k]);
 }
 
-export function make_mock({ token = randomBytes(8).toString("hex"), recipe = examples[0].text } = {}) {
-    const state = { text: recipe, path: recipe ? "part.toml" : null, saved: true, jobs: new Map(),
-        extents: new Map(), outputs: new Map(), streams: new Map(), sequences: new Map(), next_output: 1 };
+/** `finest`: most voxels of a volume along an edge; a volume takes the mock a while. */
+export function make_mock({
+    token = randomBytes(8).toString("hex"),
+    recipe = examples[0].text,
+    finest = 256,
+} = {}) {
+    const state = {
+        text: recipe,
+        path: recipe ? "part.toml" : null,
+        saved: true,
+        jobs: new Map(),
+        extents: new Map(),
+        outputs: new Map(),
+        streams: new Map(),
+        sequences: new Map(),
+        next_output: 1,
+    };
     const send_event = (session, event, data) => {
         for (const [stream, of] of state.streams) {
             if (of === session) stream.write(`event: ${event}\ndata: ${JSON.stringify(data)}\n\n`);
@@ -58,7 +79,13 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
     };
 
     const routes = {
-        "GET /api/version": () => ({ name: "lamella", version: "mock", studio: true, recipe: state.path, threads: 2 }),
+        "GET /api/version": () => ({
+            name: "lamella",
+            version: "mock",
+            studio: true,
+            recipe: state.path,
+            threads: 2,
+        }),
         "GET /api/settings": () => table,
         "GET /api/machines": () => machines,
         "GET /api/examples": () => examples,
@@ -74,7 +101,8 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
             for (const change of body.changes) {
                 const setting = change.key === null ? null : find_setting(change.section, change.key);
                 const name = `${change.section}.${change.key}`;
-                if (!setting && change.key !== null) mistakes.push({ line: null, text: `${name}: unknown key` });
+                if (!setting && change.key !== null)
+                    mistakes.push({ line: null, text: `${name}: unknown key` });
                 const wrong = setting && change.value !== null ? objection(setting, change.value) : null;
                 if (wrong) mistakes.push({ line: null, text: `${name}: ${wrong}` });
                 const list = table.sections.find((one) => one.name === change.section)?.list ?? false;
@@ -106,17 +134,25 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
         },
     };
 
-    const window_of = (url) => Object.fromEntries(["x0", "y0", "x1", "y1"].filter((key) => url.searchParams.has(key))
-        .map((key) => [key, Number(url.searchParams.get(key))]));
+    const window_of = (url) =>
+        Object.fromEntries(
+            ["x0", "y0", "x1", "y1"]
+                .filter((key) => url.searchParams.has(key))
+                .map((key) => [key, Number(url.searchParams.get(key))]),
+        );
 
     async function job_reply(url, method, request, response) {
         const [, , , identity, ...rest] = url.pathname.split("/");
         const job = state.jobs.get(identity);
         if (!job) throw new Refusal(404, "no such job");
         const ask = (name, fallback) => Number(url.searchParams.get(name) ?? fallback);
-        if (method === "POST" && rest[0] === "outputs") return start_output(job, JSON.parse(await read_body(request)));
+        if (method === "POST" && rest[0] === "outputs")
+            return start_output(job, JSON.parse(await read_body(request)));
         if (method === "DELETE") return {};
-        const tag = `"${identity}-${createHash("sha256").update(url.pathname + url.search).digest("hex").slice(0, 8)}"`;
+        const tag = `"${identity}-${createHash("sha256")
+            .update(url.pathname + url.search)
+            .digest("hex")
+            .slice(0, 8)}"`;
         if (rest.length && rest[0] !== "check") {
             response.setHeader("ETag", tag);
             response.setHeader("Cache-Control", "private, max-age=31536000, immutable");
@@ -128,17 +164,26 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
         };
         if (!rest.length) return job.info;
         if (rest[0] === "curve") return draw.curve(job, ask("values", 400));
-        if (rest[0] === "volume") return bytes("application/octet-stream", draw.volume(job, ask("n", 96)), true);
-        if (rest[0] === "frame.png") return bytes("image/png", draw.frame(ask("width", 512), ask("azimuth", 35)));
+        if (rest[0] === "volume")
+            return bytes("application/octet-stream", draw.volume(job, Math.min(finest, ask("n", 96))), true);
+        if (rest[0] === "frame.png")
+            return bytes("image/png", draw.frame(ask("width", 512), ask("azimuth", 35)));
         if (rest[0] === "check") {
             for (let done = 0; done <= job.count; done += Math.ceil(job.count / 5)) {
-                send_event(url.searchParams.get("session"), "progress", { what: "check", id: null, done, of: job.count, text: "" });
+                send_event(url.searchParams.get("session"), "progress", {
+                    what: "check",
+                    id: null,
+                    done,
+                    of: job.count,
+                    text: "",
+                });
                 await new Promise((resolve) => setTimeout(resolve, 60));
             }
             return check(job);
         }
         const layer = Number(rest[1]);
-        if (rest[0] !== "layers" || !(layer >= 0 && layer < job.count)) throw new Refusal(404, "no such layer");
+        if (rest[0] !== "layers" || !(layer >= 0 && layer < job.count))
+            throw new Refusal(404, "no such layer");
         if (rest[2] === "contours") return draw.contours(job, layer);
         if (rest[2] === "paths") return draw.paths(job, layer);
         const colours = url.searchParams.get("colors") === "1";
@@ -148,15 +193,23 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
     function start_output(job, body) {
         const id = state.next_output++;
         const extension = machines.find((one) => one.name === job.info.machine).extension;
-        const output = { output: id, state: "running", done: 0, of: job.count, bytes: 0, message: "",
-            file: body.file || job.info.name + extension };
+        const output = {
+            output: id,
+            state: "running",
+            done: 0,
+            of: job.count,
+            bytes: 0,
+            message: "",
+            is_kept: Boolean(body.file),
+            file: body.file || job.info.name + extension,
+        };
         state.outputs.set(id, output);
         output.timer = setInterval(() => {
             output.done = Math.min(job.count, output.done + Math.ceil(job.count / 20));
             if (output.done === job.count) {
                 clearInterval(output.timer);
                 output.state = "done";
-                output.bytes = job.count * 1234;
+                output.bytes = extension ? job.count * 1234 : 0;
             }
             send_event(body.session, "output", public_output(output));
         }, 60);
@@ -191,7 +244,11 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
         const name = url.pathname === "/" ? "index.html" : url.pathname.slice(1);
         if (!/^[\w.-]+$/.test(name)) throw new Refusal(404, "no such file");
         let bytes;
-        try { bytes = readFileSync(dist + name); } catch { throw new Refusal(404, "no such file"); }
+        try {
+            bytes = readFileSync(dist + name);
+        } catch {
+            throw new Refusal(404, "no such file");
+        }
         response.setHeader("Content-Type", kinds_of_files[extname(name)] ?? "application/octet-stream");
         response.end(bytes);
     }
@@ -205,8 +262,10 @@ export function make_mock({ token = randomBytes(8).toString("hex"), recipe = exa
         if (given !== token) throw new Refusal(401, "the token is missing or wrong");
         if (url.pathname === "/api/events") return open_stream(url, request, response);
         let reply;
-        if (/^\/api\/jobs\/./.test(url.pathname)) reply = await job_reply(url, request.method, request, response);
-        else if (url.pathname.startsWith("/api/outputs/")) reply = output_reply(url, request.method, response);
+        if (/^\/api\/jobs\/./.test(url.pathname))
+            reply = await job_reply(url, request.method, request, response);
+        else if (url.pathname.startsWith("/api/outputs/"))
+            reply = output_reply(url, request.method, response);
         else {
             const route = routes[`${request.method} ${url.pathname}`];
             if (!route) throw new Refusal(404, "no such address");

@@ -5,7 +5,12 @@ function flag_text(raw) {
     const value = raw.trim();
     if (/^"(.*)"$/s.test(value)) return value.slice(1, -1).replace(/\\"/g, '"').replace(/\\\\/g, "\\");
     if (/^'(.*)'$/s.test(value)) return value.slice(1, -1);
-    if (/^\[[^[\]]*\]$/.test(value)) return value.slice(1, -1).split(",").map((one) => one.trim()).join(",");
+    if (/^\[[^[\]]*\]$/.test(value))
+        return value
+            .slice(1, -1)
+            .split(",")
+            .map((one) => one.trim())
+            .join(",");
     return value;
 }
 
@@ -60,7 +65,11 @@ function toml_value(setting, value) {
     const plain = /^(-?[0-9.]+(e[-+]?[0-9]+)?|true|false)$/i.test(value.trim());
     const text = setting.type === "text" || setting.type === "path" || setting.type === "choice";
     if (!text && plain) return value.trim();
-    if (setting.type === "triple") return `[${value.split(",").map((one) => one.trim()).join(", ")}]`;
+    if (setting.type === "triple")
+        return `[${value
+            .split(",")
+            .map((one) => one.trim())
+            .join(", ")}]`;
     if (setting.type === "rows") return value;
     return JSON.stringify(value);
 }
@@ -82,7 +91,9 @@ export function edit_toml(text, change, setting) {
     } else if (entry) {
         const old = split_line(lines[entry.line - 1]);
         const fresh = toml_value(setting, change.value);
-        const pad = old.after.trim() ? " ".repeat(Math.max(1, old.raw.length + old.after.search(/\S/) - fresh.length)) : "";
+        const pad = old.after.trim()
+            ? " ".repeat(Math.max(1, old.raw.length + old.after.search(/\S/) - fresh.length))
+            : "";
         lines[entry.line - 1] = old.before + fresh + pad + old.after.trimStart();
     } else {
         const fresh = `${change.key} = ${toml_value(setting, change.value)}`;

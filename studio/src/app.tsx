@@ -18,9 +18,17 @@ function DesignPanel() {
     return (
         <div class="panel">
             <div class="mode-row">
-                <Segments label="How the recipe is shown" value={left_mode.value}
-                    choices={[{ word: "form", label: "Form" }, { word: "text", label: "Recipe text" }]}
-                    choose={(word) => { left_mode.value = word; }} />
+                <Segments
+                    label="How the recipe is shown"
+                    value={left_mode.value}
+                    choices={[
+                        { word: "form", label: "Form" },
+                        { word: "text", label: "Recipe text" },
+                    ]}
+                    choose={(word) => {
+                        left_mode.value = word;
+                    }}
+                />
             </div>
             {left_mode.value === "form" ? <Form /> : <TextEditor />}
         </div>
@@ -33,7 +41,9 @@ function Workbench() {
     const Panel = panels[tab.value];
     return (
         <main class="bench">
-            <div class="left" id="left-panel" role="tabpanel" aria-labelledby={`tab-${tab.value}`}><Panel /></div>
+            <div class="left" id="left-panel" role="tabpanel" aria-labelledby={`tab-${tab.value}`}>
+                <Panel />
+            </div>
             <View />
             <LayerPane />
             <CurvePane />
@@ -42,7 +52,14 @@ function Workbench() {
 }
 
 export function App() {
-    if (!ready.value) return <><Header /><main class="start" aria-busy="true" /><Messages /></>;
+    if (!ready.value)
+        return (
+            <>
+                <Header />
+                <main class="start" aria-busy="true" />
+                <Messages />
+            </>
+        );
     const start = starting.value || !text.value.trim();
     return (
         <>

@@ -16,18 +16,36 @@ import { start_theme } from "./shell/theme";
 import { listen_to_drops } from "./start/drop";
 import { refresh } from "./state/jobs";
 import { report } from "./state/notices";
-import { build_progress, examples, machines, path, ready, saved_text, starting, table, text, unsaved, version }
-    from "./state/store";
+import {
+    build_progress,
+    examples,
+    machines,
+    path,
+    ready,
+    saved_text,
+    starting,
+    table,
+    text,
+    unsaved,
+    version,
+} from "./state/store";
 
 declare global {
-    interface Window { __studio: Probe }
+    interface Window {
+        __studio: Probe;
+    }
 }
 
 /** Returns false when the server refuses this page: then there is nothing to listen to. */
 async function load(): Promise<boolean> {
     try {
-        const [settings, recipe, known, shown, about] = await Promise.all(
-            [get_table(), get_recipe(), get_machines(), get_examples(), get_version()]);
+        const [settings, recipe, known, shown, about] = await Promise.all([
+            get_table(),
+            get_recipe(),
+            get_machines(),
+            get_examples(),
+            get_version(),
+        ]);
         batch(() => {
             table.value = settings;
             machines.value = known;
@@ -49,21 +67,22 @@ async function load(): Promise<boolean> {
 }
 
 window.__studio = probe;
-import { stage } from "./view/shown"; import { effect } from "@preact/signals"; effect(()=>{(window as any).__stage=stage.value});
 start_theme();
 const room = document.getElementById("page")!;
 room.replaceChildren();
 render(<App />, room);
 listen_to_keys();
 listen_to_drops();
-addEventListener("beforeunload", (event) => { if (unsaved.value && text.value.trim()) event.preventDefault(); });
+addEventListener("beforeunload", (event) => {
+    if (unsaved.value && text.value.trim()) event.preventDefault();
+});
 const listener = {
     back: () => {
         if (!ready.value) {
             void load();
             return;
         }
-        refresh();  // a server that was started anew has lost its jobs
+        refresh(); // a server that was started anew has lost its jobs
         void ask_again();
     },
     progress: ({ what, done, of, text: doing }: Progress) => {
@@ -72,4 +91,6 @@ const listener = {
     },
     output: take_output,
 };
-void load().then((welcome) => { if (welcome) listen(listener); });
+void load().then((welcome) => {
+    if (welcome) listen(listener);
+});

@@ -19,7 +19,10 @@ async function run_check(): Promise<void> {
         report_of_check.value = { job: made.job, report: await get_check(made, running.signal) };
         shown_fault.value = null;
     } catch (error) {
-        const message = error instanceof Failure && error.status === 0 ? new Error(`Not checked: ${error.message}`) : error;
+        const message =
+            error instanceof Failure && error.status === 0
+                ? new Error(`Not checked: ${error.message}`)
+                : error;
         report_failure(message);
     }
     running = null;
@@ -31,7 +34,9 @@ function Progress() {
     return (
         <div class="progress-row">
             <progress max={of || 1} value={of ? done : undefined} aria-label="Progress of the check" />
-            <button class="quiet" onClick={() => running?.abort()}>cancel</button>
+            <button class="quiet" onClick={() => running?.abort()}>
+                cancel
+            </button>
         </div>
     );
 }
@@ -41,7 +46,11 @@ function FaultRow({ fault }: { fault: Fault }) {
     const chosen = shown_fault.value?.name === fault.name;
     return (
         <li>
-            <button class={`fault${chosen ? " chosen" : ""}`} aria-pressed={chosen} onClick={() => go_to_fault(fault)}>
+            <button
+                class={`fault${chosen ? " chosen" : ""}`}
+                aria-pressed={chosen}
+                onClick={() => go_to_fault(fault)}
+            >
                 <span class="fault-size">{fault.size || "place"}</span>
                 <span>layer {fault.place.layer + 1}</span>
                 <span class="soft">{at_mm.map((one) => one.toFixed(1)).join(", ")}</span>
@@ -59,11 +68,21 @@ function CheckCard({ check }: { check: Check }) {
         <section class={`check-card ${check.passed ? "passed" : check.verdict}`} aria-label={check.check}>
             <header>
                 <h3>{check.check}</h3>
-                <span class="verdict">{check.passed ? "passed" : verdicts[check.verdict] ?? check.verdict}</span>
+                <span class="verdict">
+                    {check.passed ? "passed" : (verdicts[check.verdict] ?? check.verdict)}
+                </span>
             </header>
             <p class="soft">{check.limit}</p>
-            {!check.passed && <ul>{list.map((fault) => <FaultRow key={fault.name} fault={fault} />)}</ul>}
-            {!check.passed && check.count > list.length && <p class="soft">and {check.count - list.length} more</p>}
+            {!check.passed && (
+                <ul>
+                    {list.map((fault) => (
+                        <FaultRow key={fault.name} fault={fault} />
+                    ))}
+                </ul>
+            )}
+            {!check.passed && check.count > list.length && (
+                <p class="soft">and {check.count - list.length} more</p>
+            )}
         </section>
     );
 }
@@ -75,17 +94,32 @@ export function CheckPanel() {
         <div class="panel">
             <div class="panel-scroll" tabIndex={-1}>
                 <h2>Check</h2>
-                <p class="soft">Looks for what {made ? made.machine : "the machine"} cannot make: thin walls, loose pieces,
-                    overhangs, closed voids.</p>
-                {check_progress.value ? <Progress />
-                    : <button class="primary" disabled={!made} onClick={() => void run_check()}>
-                        {checked && report_fits.value ? "Check again" : "Check"}</button>}
-                {checked && !report_fits.value && <p class="hint">The recipe has changed since the last check.</p>}
-                {checked && report_fits.value && <>
-                    <p class={`outcome ${checked.report.passed ? "passed" : "fail"}`} role="status">
-                        {checked.report.passed ? "The part can be made." : `${faults.value.length} places need a look.`}</p>
-                    {by_severity(checked.report.checks).map((one) => <CheckCard key={one.check} check={one} />)}
-                </>}
+                <p class="soft">
+                    Looks for what the machine{made ? ` ${made.machine}` : ""} cannot make: thin walls, loose
+                    pieces, overhangs, closed voids.
+                </p>
+                {check_progress.value ? (
+                    <Progress />
+                ) : (
+                    <button class="primary" disabled={!made} onClick={() => void run_check()}>
+                        {checked && report_fits.value ? "Check again" : "Check"}
+                    </button>
+                )}
+                {checked && !report_fits.value && (
+                    <p class="hint">The recipe has changed since the last check.</p>
+                )}
+                {checked && report_fits.value && (
+                    <>
+                        <p class={`outcome ${checked.report.passed ? "passed" : "fail"}`} role="status">
+                            {checked.report.passed
+                                ? "The part can be made."
+                                : `${faults.value.length} places need a look.`}
+                        </p>
+                        {by_severity(checked.report.checks).map((one) => (
+                            <CheckCard key={one.check} check={one} />
+                        ))}
+                    </>
+                )}
             </div>
         </div>
     );

@@ -30,8 +30,13 @@ export function by_severity(checks: Check[]): Check[] {
 }
 
 export function faults_of(check: Check): Fault[] {
-    return check.worst.map((place, i) => ({ name: `${check.check} ${i + 1}`, check: check.check,
-        verdict: check.verdict, size: size_of(place), place }));
+    return check.worst.map((place, i) => ({
+        name: `${check.check} ${i + 1}`,
+        check: check.check,
+        verdict: check.verdict,
+        size: size_of(place),
+        place,
+    }));
 }
 
 /** Whether the report is of the job that is shown. */
@@ -40,7 +45,9 @@ export const report_fits = computed(() => report_of_check.value?.job === job.val
 export const faults = computed(() => {
     const checked = report_of_check.value;
     if (!checked || !report_fits.value) return [];
-    return by_severity(checked.report.checks).filter((one) => !one.passed).flatMap(faults_of);
+    return by_severity(checked.report.checks)
+        .filter((one) => !one.passed)
+        .flatMap(faults_of);
 });
 
 export const shown_fault = signal<Fault | null>(null);

@@ -11,8 +11,7 @@ export function kind_key(table: Table, section: string): KindKey | undefined {
 export function chosen_kind(table: Table, section: string, given: Given): string {
     const chooser = kind_key(table, section);
     if (!chooser) return "";
-    const fallback = table.settings.find((one) => one.section === section && one.key === chooser.key)?.default ?? "";
-    const word = given[chooser.key] ?? fallback;
+    const word = given[chooser.key] ?? chooser.default;
     return word in chooser.words ? word : "";
 }
 
@@ -25,7 +24,9 @@ export function applies(table: Table, section: string, key: string, kind: string
     if (!chooser || !chosen || key === chooser.key) return true;
     const mine = [...keys_in(chosen.needs), ...chosen.takes];
     if (mine.includes(key)) return true;
-    return !Object.values(chooser.words).some((one) => keys_in(one.needs).includes(key) || one.takes.includes(key));
+    return !Object.values(chooser.words).some(
+        (one) => keys_in(one.needs).includes(key) || one.takes.includes(key),
+    );
 }
 
 /** The keys that a kind requires; of alternatives that which is given, else the first. */

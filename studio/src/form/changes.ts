@@ -15,14 +15,17 @@ export interface Spot {
 export function given_at({ section, index }: Spot): Given {
     if (index !== undefined) return values.value.lists[section]?.[index] ?? {};
     const mine = values.value.given.filter((name) => name.startsWith(`${section}.`));
-    return Object.fromEntries(mine.map((name) => [name.slice(section.length + 1), values.value.values[name] ?? ""]));
+    return Object.fromEntries(
+        mine.map((name) => [name.slice(section.length + 1), values.value.values[name] ?? ""]),
+    );
 }
 
 function change_kind(spot: Spot, key: string, word: string): Change[] {
     const given = given_at(spot);
     const changes: Change[] = [{ ...spot, key, value: word }];
     for (const other of Object.keys(given)) {
-        if (!applies(table.value, spot.section, other, word)) changes.push({ ...spot, key: other, value: null });
+        if (!applies(table.value, spot.section, other, word))
+            changes.push({ ...spot, key: other, value: null });
     }
     for (const need of needed(table.value, spot.section, word, given)) {
         const setting = settings_of(table.value, spot.section).find((one) => one.key === need);
@@ -43,9 +46,10 @@ export function set_key(spot: Spot, setting: Setting, value: string | null): voi
     if (section === "part") {
         const given = given_at(spot);
         if (value === "none") changes[0] = { ...spot, key, value: null };
-        else for (const body of ["mesh", "field", "unit"]) {
-            if (body in given) changes.push({ ...spot, key: body, value: null });
-        }
+        else
+            for (const body of ["mesh", "field", "unit"]) {
+                if (body in given) changes.push({ ...spot, key: body, value: null });
+            }
     }
     edit(changes);
 }
@@ -54,9 +58,12 @@ export function set_key(spot: Spot, setting: Setting, value: string | null): voi
 export function mesh_changes(mesh: string): Change[] {
     const given = given_at({ section: "part" });
     const shape = Object.keys(given).filter((key) =>
-        ["shape", "field", "radius", "size", "height", "tube", "period", "thickness"].includes(key));
-    return [{ section: "part", key: "mesh", value: mesh },
-        ...shape.map((key) => ({ section: "part", key, value: null }))];
+        ["shape", "field", "radius", "size", "height", "tube", "period", "thickness"].includes(key),
+    );
+    return [
+        { section: "part", key: "mesh", value: mesh },
+        ...shape.map((key) => ({ section: "part", key, value: null })),
+    ];
 }
 
 const names_in = (section: string) =>
@@ -64,13 +71,25 @@ const names_in = (section: string) =>
 
 export function add_section(section: string): void {
     const first = first_values(table.value, section, names_in("field"), names_in(section));
-    edit(Object.entries(first).map(([key, value]) => ({ section, key, value })), `add ${section}`);
+    edit(
+        Object.entries(first).map(([key, value]) => ({ section, key, value })),
+        `add ${section}`,
+    );
 }
 
-export function add_entry(section: string): void {
+function entry_changes(section: string, fields: string[]): Change[] {
     const index = headers(text.value).filter((one) => one.section === section).length;
-    const first = first_values(table.value, section, names_in("field"), names_in(section));
-    edit(Object.entries(first).map(([key, value]) => ({ section, index, key, value })), `add ${section} ${index}`);
+    const first = first_values(table.value, section, fields, names_in(section));
+    return Object.entries(first).map(([key, value]) => ({ section, index, key, value }));
+}
+
+/** Adds an entry to a list. A region is where a field is: without fields it brings one. */
+export function add_entry(section: string): void {
+    const fields = names_in("field");
+    const before = section === "region" && !fields.length ? entry_changes("field", []) : [];
+    const made = before.find((one) => one.key === "name")?.value;
+    const changes = [...before, ...entry_changes(section, made ? [made] : fields)];
+    edit(changes, `add ${section} ${Date.now()}`);
 }
 
 export function remove(spot: Spot): void {

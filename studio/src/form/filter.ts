@@ -8,5 +8,8 @@ export const all_keys = signal(false);
 
 export function matches(setting: Setting): boolean {
     const all = `${setting.section}.${setting.key} ${setting.help}`.toLowerCase();
-    return search.value.toLowerCase().split(/\s+/).every((word) => all.includes(word));
+    return search.value
+        .toLowerCase()
+        .split(/\s+/)
+        .every((word) => all.includes(word));
 }

@@ -5,7 +5,11 @@ import type { Setting } from "../server/types";
 export const helped = signal<Setting | null>(null);
 
 const words: Record<string, string> = {
-    boolean: "true or false", text: "a text", lines: "lines of text", path: "a file", formula: "a formula",
+    boolean: "true or false",
+    text: "a text",
+    lines: "lines of text",
+    path: "a file",
+    formula: "a formula",
     rows: "rows of numbers",
 };
 
@@ -24,10 +28,21 @@ export function HelpStrip() {
     const setting = helped.value;
     return (
         <aside class="help-strip" aria-label="Help">
-            {setting ? <>
-                <p><code>{setting.section}.{setting.key}</code> {setting.help}</p>
-                <p class="soft">Accepts {accepted(setting)}. Default: {setting.default}.</p>
-            </> : <p class="soft">Point at a field for its help.</p>}
+            {setting ? (
+                <>
+                    <p>
+                        <code>
+                            {setting.section}.{setting.key}
+                        </code>{" "}
+                        {setting.help}
+                    </p>
+                    <p class="soft">
+                        Accepts {accepted(setting)}. Default: {setting.default}.
+                    </p>
+                </>
+            ) : (
+                <p class="soft">Point at a field for its help.</p>
+            )}
         </aside>
     );
 }

@@ -18,9 +18,13 @@ export function MachineSelect({ id, value, choose, none }: Props) {
             {unknown && <option value={value}>{value}</option>}
             {processes.map((process) => (
                 <optgroup key={process} label={process}>
-                    {machines.value.filter((one) => one.process === process).map((one) => (
-                        <option key={one.name} value={one.name}>{one.description || one.name}</option>
-                    ))}
+                    {machines.value
+                        .filter((one) => one.process === process)
+                        .map((one) => (
+                            <option key={one.name} value={one.name}>
+                                {one.description || one.name}
+                            </option>
+                        ))}
                 </optgroup>
             ))}
         </select>

@@ -24,13 +24,24 @@ export function PathControl(props: ControlProps) {
     return (
         <div class="path">
             <TextControl {...props} />
-            <button title="Send a file to the folder of the studio" aria-label={`Choose a file for ${props.setting.key}`}
-                disabled={sending.value} onClick={() => chooser.current?.click()}>{sending.value ? "sending" : "file…"}</button>
-            <input ref={chooser} type="file" hidden accept={mesh ? mesh_endings.join(",") : undefined}
+            <button
+                title="Send a file to the folder of the studio"
+                aria-label={`Choose a file for ${props.setting.key}`}
+                disabled={sending.value}
+                onClick={() => chooser.current?.click()}
+            >
+                {sending.value ? "sending" : "file…"}
+            </button>
+            <input
+                ref={chooser}
+                type="file"
+                hidden
+                accept={mesh ? mesh_endings.join(",") : undefined}
                 onChange={(event) => {
                     void take(event.currentTarget.files?.[0]);
                     event.currentTarget.value = "";
-                }} />
+                }}
+            />
         </div>
     );
 }

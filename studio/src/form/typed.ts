@@ -1,4 +1,4 @@
-// A value that is being typed: it is sent when typing pauses, and the field is left alone until it loses the focus.
+// A value that is being typed: it is sent when typing pauses, and stays until the field loses the focus.
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 

@@ -1,4 +1,4 @@
-// The area of the layers over the height, with a marker at the layer that is looked at. A click goes to a layer.
+// The area of the layers over the height, with a marker at the layer that is shown. A click goes to a layer.
 import { effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
@@ -12,19 +12,28 @@ import { dark } from "../shell/theme";
 export const curve = signal<{ job: Job; curve: Curve } | null>(null);
 
 /** Volume of part and supports by the curve, mm3. */
-export function volume_of({ job: made, curve: got }: { job: Job; curve: Curve }): { part: number; supports: number } {
-    const sum = (areas: number[]) => areas.reduce((all, area, i) => {
-        const first = i * got.layers_a_value;
-        const next = Math.min(made.layers.count, first + got.layers_a_value);
-        const thick = slab_of(made, next - 1).begin + slab_of(made, next - 1).height - slab_of(made, first).begin;
-        return all + area * thick;
-    }, 0);
+export function volume_of({ job: made, curve: got }: { job: Job; curve: Curve }): {
+    part: number;
+    supports: number;
+} {
+    const sum = (areas: number[]) =>
+        areas.reduce((all, area, i) => {
+            const first = i * got.layers_a_value;
+            const next = Math.min(made.layers.count, first + got.layers_a_value);
+            const thick =
+                slab_of(made, next - 1).begin + slab_of(made, next - 1).height - slab_of(made, first).begin;
+            return all + area * thick;
+        }, 0);
     return { part: sum(got.area_mm2), supports: sum(got.support_area_mm2) };
 }
 
 function data_of({ job: made, curve: got }: { job: Job; curve: Curve }): uPlot.AlignedData {
+    const each = got.layers_a_value; // the one in the middle of them is measured
     const heights = got.area_mm2.map((_, i) => {
-        const { begin, height } = slab_of(made, Math.min(made.layers.count - 1, i * got.layers_a_value));
+        const { begin, height } = slab_of(
+            made,
+            Math.min(made.layers.count - 1, i * each + Math.floor(each / 2)),
+        );
         return begin + height / 2;
     });
     return made.supports ? [heights, got.area_mm2, got.support_area_mm2] : [heights, got.area_mm2];
@@ -38,6 +47,7 @@ function draw_marker(plot: uPlot): void {
     const { ctx, bbox } = plot;
     ctx.save();
     ctx.beginPath();
+    ctx.setLineDash([]);
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);
     ctx.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue("--view-layer");
@@ -49,18 +59,45 @@ function draw_marker(plot: uPlot): void {
 function options_of(made: Job, width: number, height: number): uPlot.Options {
     const style = getComputedStyle(document.documentElement);
     const colour = (name: string) => style.getPropertyValue(name).trim();
-    const axis = { stroke: colour("--ink-soft"), font: "11px system-ui, sans-serif", ticks: { show: false },
-        grid: { stroke: colour("--line-soft"), width: 1 } };
-    const series: uPlot.Series[] = [{}, { label: "part", stroke: colour("--accent"), width: 1.5,
-        fill: colour("--accent-fill"), points: { show: false } }];
-    if (made.supports) series.push({ label: "supports", stroke: "#598fcc", width: 1.2, dash: [4, 3], points: { show: false } });
+    const axis = {
+        stroke: colour("--ink-soft"),
+        font: "11px system-ui, sans-serif",
+        ticks: { show: false },
+        grid: { stroke: colour("--line-soft"), width: 1 },
+    };
+    const series: uPlot.Series[] = [
+        {},
+        {
+            label: "part",
+            stroke: colour("--accent"),
+            width: 1.5,
+            fill: colour("--accent-fill"),
+            points: { show: false },
+        },
+    ];
+    if (made.supports)
+        series.push({
+            label: "supports",
+            stroke: "#598fcc",
+            width: 1.2,
+            dash: [4, 3],
+            points: { show: false },
+        });
     return {
-        width, height, series, padding: [8, 26, 0, 0],
+        width,
+        height,
+        series,
+        padding: [8, 26, 0, 0],
         legend: { show: false },
         cursor: { y: false, drag: { x: false, y: false }, points: { size: 6 } },
-        scales: { x: { time: false, range: [0, made.layers.height_mm] }, y: { range: (_, __, hi) => [0, (hi || 1) * 1.08] } },
-        axes: [{ ...axis, size: 24, space: 60, values: (_, ticks) => ticks.map((tick) => `${tick} mm`) },
-            { ...axis, size: 52, space: 26, values: (_, ticks) => ticks.map((tick) => `${tick} mm²`) }],
+        scales: {
+            x: { time: false, range: [0, made.layers.height_mm] },
+            y: { range: (_, __, hi) => [0, (hi || 1) * 1.08] },
+        },
+        axes: [
+            { ...axis, size: 24, space: 60, values: (_, ticks) => ticks.map((tick) => `${tick} mm`) },
+            { ...axis, size: 52, space: 26, values: (_, ticks) => ticks.map((tick) => `${tick} mm²`) },
+        ],
         hooks: { draw: [draw_marker] },
     };
 }
@@ -73,7 +110,9 @@ function load_curves(): () => void {
             curve.value = null;
             return;
         }
-        latest.run(async (signal) => { curve.value = { job: made, curve: await get_curve(made, signal) }; });
+        latest.run(async (signal) => {
+            curve.value = { job: made, curve: await get_curve(made, signal) };
+        });
     });
     return () => {
         stop();
@@ -85,6 +124,7 @@ export function CurvePane() {
     const room = useRef<HTMLDivElement>(null);
     useEffect(() => load_curves(), []);
     useEffect(() => {
+        const shown_in = room.current!;
         let plot: uPlot | null = null;
         const go = (event: MouseEvent) => {
             const made = job.value;
@@ -96,15 +136,26 @@ export function CurvePane() {
             plot?.destroy();
             plot = null;
             const got = curve.value;
-            const box = room.current!.getBoundingClientRect();
+            const box = shown_in.getBoundingClientRect();
             if (!got || box.width < 60 || box.height < 40) return;
-            plot = new uPlot(options_of(got.job, Math.floor(box.width), Math.floor(box.height)), data_of(got), room.current!);
+            plot = new uPlot(
+                options_of(got.job, Math.floor(box.width), Math.floor(box.height)),
+                data_of(got),
+                shown_in,
+            );
             plot.over.addEventListener("click", go);
         };
         const watcher = new ResizeObserver(make);
-        watcher.observe(room.current!);
-        const stop_data = effect(() => { void dark.value; void curve.value; make(); });
-        const stop_layer = effect(() => { void layer.value; plot?.redraw(false); });
+        watcher.observe(shown_in);
+        const stop_data = effect(() => {
+            void dark.value;
+            void curve.value;
+            make();
+        });
+        const stop_layer = effect(() => {
+            void layer.value;
+            plot?.redraw(false);
+        });
         return () => {
             watcher.disconnect();
             stop_data();
@@ -114,7 +165,9 @@ export function CurvePane() {
     }, []);
     return (
         <section class="curve" aria-label="Area of the layers over the height">
-            <div class="curve-name">Area of the layers <span>over the height</span></div>
+            <div class="curve-name">
+                Area of the layers <span>over the height</span>
+            </div>
             <div class="curve-room" ref={room} aria-hidden="true" />
         </section>
     );

@@ -25,7 +25,8 @@ const grid_from = 9;
 
 export function draw(canvas: HTMLCanvasElement, drawing: Drawing): void {
     const dense = Math.min(2, devicePixelRatio);
-    const width = canvas.clientWidth, height = canvas.clientHeight;
+    const width = canvas.clientWidth,
+        height = canvas.clientHeight;
     if (canvas.width !== Math.round(width * dense)) canvas.width = Math.round(width * dense);
     if (canvas.height !== Math.round(height * dense)) canvas.height = Math.round(height * dense);
     const context = canvas.getContext("2d")!;
@@ -51,12 +52,17 @@ export function draw(canvas: HTMLCanvasElement, drawing: Drawing): void {
 
 type Place = (mm: number) => number;
 
-function draw_grid(context: CanvasRenderingContext2D, { job, frame }: Drawing, width: number, height: number): void {
+function draw_grid(
+    context: CanvasRenderingContext2D,
+    { job, frame }: Drawing,
+    width: number,
+    height: number,
+): void {
     const pixel = pixel_of(job) * frame.scale;
     if (pixel < grid_from) return;
     const [cx, cy] = pixel_corner(job);
     const first = (middle: number, corner: number) => {
-        const at = middle + (corner * frame.scale);
+        const at = middle + corner * frame.scale;
         return ((at % pixel) + pixel) % pixel;
     };
     context.beginPath();
@@ -80,18 +86,32 @@ function draw_bounds(context: CanvasRenderingContext2D, { bounds }: Job, across:
     context.strokeRect(across(lo[0]), down(hi[1]), across(hi[0]) - across(lo[0]), down(lo[1]) - down(hi[1]));
 }
 
-function trace(context: CanvasRenderingContext2D, points: number[], closed: boolean, across: Place, down: Place): void {
+function trace(
+    context: CanvasRenderingContext2D,
+    points: number[],
+    closed: boolean,
+    across: Place,
+    down: Place,
+): void {
     for (let i = 0; i + 1 < points.length; i += 2) {
-        const px = across(points[i]!), py = down(points[i + 1]!);
+        const px = across(points[i]!),
+            py = down(points[i + 1]!);
         if (i) context.lineTo(px, py);
         else context.moveTo(px, py);
     }
     if (closed) context.closePath();
 }
 
-function draw_contours(context: CanvasRenderingContext2D, { part, supports }: NonNullable<Lines["contours"]>,
-                       across: Place, down: Place): void {
-    for (const [set, colour] of [[supports, support_contour], [part, part_contour]] as const) {
+function draw_contours(
+    context: CanvasRenderingContext2D,
+    { part, supports }: NonNullable<Lines["contours"]>,
+    across: Place,
+    down: Place,
+): void {
+    for (const [set, colour] of [
+        [supports, support_contour],
+        [part, part_contour],
+    ] as const) {
         if (!set) continue;
         context.beginPath();
         for (const { points } of set.contours) trace(context, points, true, across, down);
@@ -105,15 +125,21 @@ function draw_contours(context: CanvasRenderingContext2D, { part, supports }: No
     }
 }
 
-function draw_paths(context: CanvasRenderingContext2D, { paths }: Paths, scale: number, across: Place,
-                    down: Place): void {
+function draw_paths(
+    context: CanvasRenderingContext2D,
+    { paths }: Paths,
+    scale: number,
+    across: Place,
+    down: Place,
+): void {
     const roles = [...new Set(paths.map((one) => one.role))];
     for (const role of roles.reverse()) {
         const widths = new Set(paths.filter((one) => one.role === role).map((one) => one.width));
         for (const width of widths) {
             context.beginPath();
             for (const one of paths) {
-                if (one.role === role && one.width === width) trace(context, one.points, one.closed, across, down);
+                if (one.role === role && one.width === width)
+                    trace(context, one.points, one.closed, across, down);
             }
             context.strokeStyle = role_colour(role);
             context.lineWidth = Math.max(0.8, width * scale * 0.88);

@@ -28,7 +28,7 @@ export function pixel_of(made: Job): number {
     return display && Math.abs(display.pixel_x / display.pixel_y - 1) < 1e-3 ? display.pixel_x : 0;
 }
 
-/** A point where four pixels of the machine meet, mm: as the server names it, else the corner of the bounds. */
+/** A point where four pixels of the machine meet, mm; the corner of the bounds if the server names none. */
 export function pixel_corner(made: Job): [number, number] {
     return made.display?.corner ?? [made.bounds.lo[0], made.bounds.lo[1]];
 }
@@ -39,14 +39,29 @@ function wish_of(made: Job, shown: Frame, dense: number): Wish {
     if (pixel && pixel * shown.scale >= exact_from) {
         const [cx, cy] = pixel_corner(made);
         const down = (value: number, corner: number) => corner + Math.floor((value - corner) / pixel) * pixel;
-        const x0 = down(window.x0, cx), y0 = down(window.y0, cy);
-        const columns = Math.ceil((window.x1 - x0) / pixel), rows = Math.ceil((window.y1 - y0) / pixel);
-        return { window: { x0, y0, x1: x0 + columns * pixel, y1: y0 + rows * pixel }, width: columns, exact: true };
+        const x0 = down(window.x0, cx),
+            y0 = down(window.y0, cy);
+        const columns = Math.ceil((window.x1 - x0) / pixel),
+            rows = Math.ceil((window.y1 - y0) / pixel);
+        return {
+            window: { x0, y0, x1: x0 + columns * pixel, y1: y0 + rows * pixel },
+            width: columns,
+            exact: true,
+        };
     }
-    return { window, width: Math.min(most_width, Math.max(16, Math.round(pane.value.width * dense))), exact: false };
+    return {
+        window,
+        width: Math.min(most_width, Math.max(16, Math.round(pane.value.width * dense))),
+        exact: false,
+    };
 }
 
-export async function load_mask(made: Job, layer: number, shown: Frame, signal: AbortSignal): Promise<Picture> {
+export async function load_mask(
+    made: Job,
+    layer: number,
+    shown: Frame,
+    signal: AbortSignal,
+): Promise<Picture> {
     const { window, width, exact } = wish_of(made, shown, Math.min(2, devicePixelRatio));
     const bitmap = await createImageBitmap(await get_mask(made, layer, width, window, signal));
     return { job: made.job, layer, window, bitmap, exact };

@@ -19,15 +19,17 @@ export const lines = signal<Lines | null>(null);
 export const picture = signal<Picture | null>(null);
 
 export function mode_of(made: Job): LayerMode {
-    const usual = made.process === "filament" ? "paths" : "mask";
+    const usual = made.process === "filament" ? "paths" : made.display ? "mask" : "contours";
     const wanted = wanted_mode.value ?? usual;
-    return wanted === "paths" && made.process !== "filament" ? "mask" : wanted;
+    return wanted === "paths" && made.process !== "filament" ? "contours" : wanted;
 }
 
 async function load_lines(made: Job, k: number, mode: LayerMode, signal: AbortSignal): Promise<Lines> {
     if (mode === "paths") return { job: made.job, layer: k, paths: await get_paths(made, k, signal) };
-    const [part, supports] = await Promise.all([get_contours(made, k, "part", signal),
-        made.supports ? get_contours(made, k, "supports", signal) : null]);
+    const [part, supports] = await Promise.all([
+        get_contours(made, k, "part", signal),
+        made.supports ? get_contours(made, k, "supports", signal) : null,
+    ]);
     return { job: made.job, layer: k, contours: { part, supports } };
 }
 
@@ -65,8 +67,13 @@ function watch_drawing(canvas: HTMLCanvasElement): () => void {
         const fault = shown_fault.value;
         const mark = fault?.place.layer === layer.value ? fault.place.at_mm : null;
         void pane.value;
-        const drawing = { job: made, frame: current(made), picture: picture.value, lines: lines.value,
-            mark: mark && [mark[0], mark[1]] as [number, number] };
+        const drawing = {
+            job: made,
+            frame: current(made),
+            picture: picture.value,
+            lines: lines.value,
+            mark: mark && ([mark[0], mark[1]] as [number, number]),
+        };
         cancelAnimationFrame(asked);
         asked = requestAnimationFrame(() => draw(canvas, drawing));
     });
@@ -76,11 +83,28 @@ function watch_drawing(canvas: HTMLCanvasElement): () => void {
     };
 }
 
+/** A part of another size is shown as a whole. */
+function watch_sizes(): () => void {
+    let before: number[] = [];
+    return effect(() => {
+        const made = job.value;
+        if (!made) return;
+        const size = [0, 1].map((k) => made.bounds.hi[k]! - made.bounds.lo[k]!);
+        const same = before.every((one, k) => Math.abs(size[k]! / one - 1) < 0.25);
+        before = size;
+        if (!same) frame.value = null;
+    });
+}
+
 function watch_places(): () => void {
     return effect(() => {
         const place = wanted_place.value;
         if (!place) return;
-        frame.value = { x: place.x, y: place.y, scale: Math.min(pane.peek().width, pane.peek().height) / place.across };
+        frame.value = {
+            x: place.x,
+            y: place.y,
+            scale: Math.min(pane.peek().width, pane.peek().height) / place.across,
+        };
     });
 }
 
@@ -111,18 +135,26 @@ function watch_pointer(room: HTMLElement, pointer: Signal<[number, number] | nul
             if (held.size === 1) pan(made, x - before[0], y - before[1]);
             else if (wide > 0) zoom_about(made, x, y, spread() / wide);
         },
-        pointerup: (event) => { held.delete(event.pointerId); },
-        pointercancel: (event) => { held.delete(event.pointerId); },
-        pointerleave: () => { pointer.value = null; },
+        pointerup: (event) => {
+            held.delete(event.pointerId);
+        },
+        pointercancel: (event) => {
+            held.delete(event.pointerId);
+        },
+        pointerleave: () => {
+            pointer.value = null;
+        },
     };
     const wheel = (event: WheelEvent) => {
         event.preventDefault();
         if (job.value) zoom_about(job.value, ...local(event), Math.exp(-event.deltaY * 0.0016));
     };
-    for (const [name, listener] of Object.entries(listeners)) room.addEventListener(name, listener as EventListener);
+    for (const [name, listener] of Object.entries(listeners))
+        room.addEventListener(name, listener as EventListener);
     room.addEventListener("wheel", wheel, { passive: false });
     return () => {
-        for (const [name, listener] of Object.entries(listeners)) room.removeEventListener(name, listener as EventListener);
+        for (const [name, listener] of Object.entries(listeners))
+            room.removeEventListener(name, listener as EventListener);
         room.removeEventListener("wheel", wheel);
     };
 }
@@ -131,10 +163,16 @@ function on_key(made: Job, event: KeyboardEvent): void {
     const step = event.shiftKey ? 8 : 40;
     const { width, height } = pane.value;
     const moves: Record<string, () => void> = {
-        ArrowLeft: () => pan(made, step, 0), ArrowRight: () => pan(made, -step, 0),
-        ArrowUp: () => pan(made, 0, step), ArrowDown: () => pan(made, 0, -step),
-        "+": () => zoom_about(made, width / 2, height / 2, 1.3), "=": () => zoom_about(made, width / 2, height / 2, 1.3),
-        "-": () => zoom_about(made, width / 2, height / 2, 1 / 1.3), Home: () => { frame.value = null; },
+        ArrowLeft: () => pan(made, step, 0),
+        ArrowRight: () => pan(made, -step, 0),
+        ArrowUp: () => pan(made, 0, step),
+        ArrowDown: () => pan(made, 0, -step),
+        "+": () => zoom_about(made, width / 2, height / 2, 1.3),
+        "=": () => zoom_about(made, width / 2, height / 2, 1.3),
+        "-": () => zoom_about(made, width / 2, height / 2, 1 / 1.3),
+        Home: () => {
+            frame.value = null;
+        },
     };
     const move = moves[event.key];
     if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -146,11 +184,21 @@ export function LayerPicture({ made, pointer }: { made: Job; pointer: Signal<[nu
     const room = useRef<HTMLDivElement>(null);
     const canvas = useRef<HTMLCanvasElement>(null);
     useEffect(() => {
-        const measure = () => { pane.value = { width: room.current!.clientWidth, height: room.current!.clientHeight }; };
+        const measured = room.current!;
+        const measure = () => {
+            pane.value = { width: measured.clientWidth, height: measured.clientHeight };
+        };
+        frame.value = null;
         const watcher = new ResizeObserver(measure);
         measure();
-        watcher.observe(room.current!);
-        const stops = [watch_layer(), watch_drawing(canvas.current!), watch_places(), watch_pointer(room.current!, pointer)];
+        watcher.observe(measured);
+        const stops = [
+            watch_sizes(),
+            watch_layer(),
+            watch_drawing(canvas.current!),
+            watch_places(),
+            watch_pointer(room.current!, pointer),
+        ];
         return () => {
             watcher.disconnect();
             for (const stop of stops) stop();
@@ -159,14 +207,39 @@ export function LayerPicture({ made, pointer }: { made: Job; pointer: Signal<[nu
     const middle = () => [pane.value.width / 2, pane.value.height / 2] as const;
     return (
         <div class="layer-picture">
-            <div class="layer-room" ref={room} tabIndex={0} role="application" onKeyDown={(event) => on_key(made, event)}
-                aria-label={`Picture of layer ${layer.value + 1}. Arrow keys move it, plus and minus zoom, Home shows all.`}>
+            <div
+                class="layer-room"
+                ref={room}
+                tabIndex={0}
+                role="application"
+                onKeyDown={(event) => on_key(made, event)}
+                aria-label={`Picture of layer ${layer.value + 1}. Arrow keys move it, plus and minus zoom, Home fits it.`}
+            >
                 <canvas ref={canvas} aria-hidden="true" />
             </div>
             <div class="zoom-buttons">
-                <button title="Larger (+)" aria-label="Larger" onClick={() => zoom_about(made, ...middle(), 1.5)}>+</button>
-                <button title="Smaller (-)" aria-label="Smaller" onClick={() => zoom_about(made, ...middle(), 1 / 1.5)}>−</button>
-                <button title="Show the whole layer (Home)" onClick={() => { frame.value = null; }}>fit</button>
+                <button
+                    title="Larger (+)"
+                    aria-label="Larger"
+                    onClick={() => zoom_about(made, ...middle(), 1.5)}
+                >
+                    +
+                </button>
+                <button
+                    title="Smaller (-)"
+                    aria-label="Smaller"
+                    onClick={() => zoom_about(made, ...middle(), 1 / 1.5)}
+                >
+                    −
+                </button>
+                <button
+                    title="Show the whole layer (Home)"
+                    onClick={() => {
+                        frame.value = null;
+                    }}
+                >
+                    fit
+                </button>
             </div>
         </div>
     );

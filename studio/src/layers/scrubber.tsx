@@ -15,10 +15,14 @@ const leap = (made: Job) => Math.max(1, Math.round(made.layers.count / 100));
 function on_key(made: Job, event: KeyboardEvent): void {
     const step = event.shiftKey ? 1 : leap(made);
     const to: Record<string, number> = {
-        ArrowRight: layer.value + 1, ArrowUp: layer.value + 1,
-        ArrowLeft: layer.value - 1, ArrowDown: layer.value - 1,
-        PageUp: layer.value + 10 * step, PageDown: layer.value - 10 * step,
-        Home: 0, End: made.layers.count - 1,
+        ArrowRight: layer.value + 1,
+        ArrowUp: layer.value + 1,
+        ArrowLeft: layer.value - 1,
+        ArrowDown: layer.value - 1,
+        PageUp: layer.value + 10 * step,
+        PageDown: layer.value - 10 * step,
+        Home: 0,
+        End: made.layers.count - 1,
     };
     const wanted = to[event.key];
     if (wanted === undefined) return;
@@ -60,24 +64,41 @@ export function Scrubber({ made }: { made: Job }) {
         if (!event.shiftKey) {
             go(made, at_pointer(event));
             held.current = { x: event.clientX, layer: layer.value };
-        } else {  // four pixels a layer, from where the fine movement began
+        } else {
+            // four pixels a layer, from where the fine movement began
             go(made, held.current.layer + Math.round((event.clientX - held.current.x) / 4));
         }
     };
-    const release = () => { held.current = null; };
+    const release = () => {
+        held.current = null;
+    };
 
     return (
-        <div class="scrubber" ref={track} role="slider" tabIndex={0} aria-label="Layer" aria-valuemin={1}
-            aria-valuemax={last + 1} aria-valuenow={layer.value + 1}
+        <div
+            class="scrubber"
+            ref={track}
+            role="slider"
+            tabIndex={0}
+            aria-label="Layer"
+            aria-valuemin={1}
+            aria-valuemax={last + 1}
+            aria-valuenow={layer.value + 1}
             aria-valuetext={`layer ${layer.value + 1} of ${last + 1}, ${(begin + height).toFixed(2)} mm`}
             title="Drag, turn the wheel or use the arrow keys; Shift is fine"
-            onKeyDown={(event) => on_key(made, event)} onPointerDown={press} onPointerMove={drag}
-            onPointerUp={release} onPointerCancel={release}>
+            onKeyDown={(event) => on_key(made, event)}
+            onPointerDown={press}
+            onPointerMove={drag}
+            onPointerUp={release}
+            onPointerCancel={release}
+        >
             <div class="scrubber-track">
                 <div class="scrubber-fill" style={{ width: `${share * 100}%` }} />
                 {faults.value.map((fault) => (
-                    <div key={fault.name} class={`scrubber-mark ${fault.verdict}`}
-                        style={{ left: `${last ? fault.place.layer / last * 100 : 0}%` }} />
+                    <div
+                        key={fault.name}
+                        class={`scrubber-mark ${fault.verdict}`}
+                        style={{ left: `${last ? (fault.place.layer / last) * 100 : 0}%` }}
+                    />
                 ))}
                 <div class="scrubber-thumb" style={{ left: `${share * 100}%` }} />
             </div>

@@ -19,7 +19,8 @@ const most_scale = 4000;
 
 export function whole(made: Job): Frame {
     const { lo, hi } = made.bounds;
-    const width = Math.max(1e-3, hi[0] - lo[0]), height = Math.max(1e-3, hi[1] - lo[1]);
+    const width = Math.max(1e-3, hi[0] - lo[0]),
+        height = Math.max(1e-3, hi[1] - lo[1]);
     const scale = 0.94 * Math.min(pane.value.width / width, pane.value.height / height);
     return { x: (lo[0] + hi[0]) / 2, y: (lo[1] + hi[1]) / 2, scale };
 }
@@ -28,7 +29,8 @@ export const current = (made: Job): Frame => frame.value ?? whole(made);
 
 /** The window that the pane shows, mm. */
 export function window_of({ x, y, scale }: Frame): Window {
-    const w = pane.value.width / scale / 2, h = pane.value.height / scale / 2;
+    const w = pane.value.width / scale / 2,
+        h = pane.value.height / scale / 2;
     return { x0: x - w, y0: y - h, x1: x + w, y1: y + h };
 }
 
@@ -37,7 +39,8 @@ export function zoom_about(made: Job, px: number, py: number, factor: number): v
     const now = current(made);
     const least = whole(made).scale * 0.5;
     const scale = Math.max(least, Math.min(most_scale, now.scale * factor));
-    const dx = px - pane.value.width / 2, dy = pane.value.height / 2 - py;
+    const dx = px - pane.value.width / 2,
+        dy = pane.value.height / 2 - py;
     frame.value = { x: now.x + dx / now.scale - dx / scale, y: now.y + dy / now.scale - dy / scale, scale };
 }
 

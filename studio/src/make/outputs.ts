@@ -16,6 +16,8 @@ export interface Row {
 
 export const rows = signal<Row[]>([]);
 
+export const runs = ({ state }: Output): boolean => state === "waiting" || state === "running";
+
 /** Takes over what the server says about an output of this page. */
 export function take_output(output: Output): void {
     rows.value = rows.value.map((row) => {
@@ -25,12 +27,22 @@ export function take_output(output: Output): void {
     });
 }
 
+/** An empty name: the file is kept until the studio ends, and is there to be downloaded. */
 export async function start(file: string): Promise<void> {
     const made = job.value;
     if (!made) return;
     try {
         const { output } = await start_output(made, file);
-        const begun: Output = { output, state: "running", done: 0, of: made.layers.count, file, bytes: 0, message: "" };
+        const begun: Output = {
+            output,
+            state: "waiting",
+            done: 0,
+            of: made.layers.count,
+            file,
+            bytes: 0,
+            is_kept: file !== "",
+            message: "",
+        };
         rows.value = [{ output: begun, machine: made.machine, begun: Date.now(), rate: 0 }, ...rows.value];
         take_output(await get_output(output));
     } catch (error) {
@@ -54,7 +66,7 @@ export async function remove(row: Row): Promise<void> {
 /** Asks anew for all outputs: the line to the server was broken, events may be missing. */
 export async function ask_again(): Promise<void> {
     for (const { output } of rows.value) {
-        if (output.state !== "running") continue;
+        if (!runs(output)) continue;
         try {
             take_output(await get_output(output.output));
         } catch (error) {

@@ -1,8 +1,20 @@
 // One function a request of the server's interface.
 import { get_blob, get_bytes, get_json } from "./http";
 import { session } from "./token";
-import type { Change, Contours, Curve, Example, Job, Machine, Output, Paths, Report, Table, Values, Version }
-    from "./types";
+import type {
+    Change,
+    Contours,
+    Curve,
+    Example,
+    Job,
+    Machine,
+    Output,
+    Paths,
+    Report,
+    Table,
+    Values,
+    Version,
+} from "./types";
 
 type Signal = AbortSignal | undefined;
 
@@ -10,7 +22,8 @@ export const get_version = () => get_json<Version>("/api/version");
 export const get_table = () => get_json<Table>("/api/settings");
 export const get_machines = () => get_json<Machine[]>("/api/machines");
 export const get_examples = () => get_json<Example[]>("/api/examples");
-export const get_recipe = () => get_json<{ text: string; path: string | null; saved: boolean }>("/api/recipe");
+export const get_recipe = () =>
+    get_json<{ text: string; path: string | null; saved: boolean }>("/api/recipe");
 
 export const save_recipe = (text: string, path: string | null) =>
     get_json<{ path: string }>("/api/recipe", { method: "PUT", json: path ? { text, path } : { text } });
@@ -22,7 +35,10 @@ export const read_values = (text: string, signal: Signal) =>
     get_json<Values>("/api/values", { method: "POST", json: { text }, signal });
 
 export const send_file = (file: File) =>
-    get_json<{ path: string }>(`/api/files?name=${encodeURIComponent(file.name)}`, { method: "POST", bytes: file });
+    get_json<{ path: string }>(`/api/files?name=${encodeURIComponent(file.name)}`, {
+        method: "POST",
+        bytes: file,
+    });
 
 export const post_job = (text: string, sequence: number, signal: Signal) =>
     get_json<Job>("/api/jobs", { method: "POST", json: { text, session, sequence }, signal });
@@ -37,9 +53,17 @@ export interface Window {
     y1: number;
 }
 
-export function get_mask(job: Job, layer: number, width: number, window: Window, signal: Signal): Promise<Blob> {
+export function get_mask(
+    job: Job,
+    layer: number,
+    width: number,
+    window: Window,
+    signal: Signal,
+): Promise<Blob> {
     const places = Object.entries(window).map(([name, value]) => `${name}=${+(value as number).toFixed(5)}`);
-    return get_blob(of_job(job, `layers/${layer}/mask.png?colors=1&width=${width}&${places.join("&")}`), { signal });
+    return get_blob(of_job(job, `layers/${layer}/mask.png?colors=1&width=${width}&${places.join("&")}`), {
+        signal,
+    });
 }
 
 export const get_contours = (job: Job, layer: number, what: "part" | "supports", signal: Signal) =>
@@ -48,7 +72,8 @@ export const get_contours = (job: Job, layer: number, what: "part" | "supports",
 export const get_paths = (job: Job, layer: number, signal: Signal) =>
     get_json<Paths>(of_job(job, `layers/${layer}/paths`), { signal });
 
-export const get_curve = (job: Job, signal: Signal) => get_json<Curve>(of_job(job, "curve?values=400"), { signal });
+export const get_curve = (job: Job, signal: Signal) =>
+    get_json<Curve>(of_job(job, "curve?values=400"), { signal });
 
 export const get_volume = (job: Job, voxels: number, signal: Signal) =>
     get_bytes(of_job(job, `volume?n=${voxels}`), { signal });
@@ -62,7 +87,9 @@ export interface FrameView {
 }
 
 export function get_frame(job: Job, view: FrameView, signal: Signal): Promise<Blob> {
-    const query = Object.entries(view).map(([name, value]) => `${name}=${value as string}`).join("&");
+    const query = Object.entries(view)
+        .map(([name, value]) => `${name}=${value as string}`)
+        .join("&");
     return get_blob(of_job(job, `frame.png?${query}`), { signal });
 }
 
@@ -70,8 +97,10 @@ export const get_check = (job: Job, signal: Signal) =>
     get_json<Report>(of_job(job, `check?session=${session}`), { signal });
 
 export const start_output = (job: Job, file: string) =>
-    get_json<{ output: number }>(of_job(job, "outputs"),
-        { method: "POST", json: file ? { file, session } : { session } });
+    get_json<{ output: number }>(of_job(job, "outputs"), {
+        method: "POST",
+        json: file ? { file, session } : { session },
+    });
 
 export const get_output = (id: number) => get_json<Output>(`/api/outputs/${id}`);
 export const remove_output = (id: number) => get_json<object>(`/api/outputs/${id}`, { method: "DELETE" });

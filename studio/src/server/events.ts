@@ -29,6 +29,6 @@ export function listen(listener: Listener): void {
     stream.addEventListener("error", () => {
         away.value = true;
         if (stream.readyState !== EventSource.CLOSED) return;
-        setTimeout(() => listen(listener), wait);  // the server answered with an error: open a new line
+        setTimeout(() => listen(listener), wait); // the server answered with an error: open a new line
     });
 }

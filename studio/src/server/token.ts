@@ -1,4 +1,4 @@
-// The token of the server: from the page's address, which then no longer shows it. Kept for reloads of this tab.
+// The token of the server: from the page's address, which then no longer shows it. Kept for reloads.
 
 const kept_as = "lamella-token";
 
@@ -16,5 +16,6 @@ function take_token(): string {
 export const token = take_token();
 
 /** Names this page to the server, which cancels older work of the same session. */
-export const session = Array.from(crypto.getRandomValues(new Uint8Array(6)),
-    (byte) => byte.toString(16).padStart(2, "0")).join("");
+export const session = Array.from(crypto.getRandomValues(new Uint8Array(6)), (byte) =>
+    byte.toString(16).padStart(2, "0"),
+).join("");

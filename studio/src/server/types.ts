@@ -15,8 +15,19 @@ export interface Version {
     threads: number;
 }
 
-export type SettingType = "boolean" | "integer" | "number" | "text" | "lines" | "path" | "choice" | "triple" |
-    "graded" | "graded_triple" | "formula" | "rows";
+export type SettingType =
+    | "boolean"
+    | "integer"
+    | "number"
+    | "text"
+    | "lines"
+    | "path"
+    | "choice"
+    | "triple"
+    | "graded"
+    | "graded_triple"
+    | "formula"
+    | "rows";
 
 export interface Setting {
     section: string;
@@ -42,6 +53,8 @@ export interface Section {
 export interface KindKey {
     section: string;
     key: string;
+    /** The kind when the key is missing; empty when it is required. */
+    default: string;
     words: Record<string, { needs: string[]; takes: string[] }>;
 }
 
@@ -87,9 +100,17 @@ export interface Job {
     process: string;
     bounds: { lo: Triple; hi: Triple };
     layers: { count: number; heights: [number, number][]; height_mm: number };
+    /** Height of the bed in the space of the job, mm. */
+    z0: number;
     supports: boolean;
     notes: string[];
-    display: { width: number; height: number; pixel_x: number; pixel_y: number; corner?: [number, number] } | null;
+    display: {
+        width: number;
+        height: number;
+        pixel_x: number;
+        pixel_y: number;
+        corner?: [number, number];
+    } | null;
 }
 
 export interface Contours {
@@ -108,7 +129,7 @@ export interface Path {
 
 export interface Paths {
     paths: Path[];
-    seconds: number;
+    seconds?: number;
 }
 
 export interface Curve {
@@ -141,11 +162,14 @@ export interface Report {
 
 export interface Output {
     output: number;
-    state: "running" | "done" | "failed" | "cancelled";
+    state: "waiting" | "running" | "done" | "failed" | "cancelled";
     done: number;
     of: number;
     file: string;
+    /** 0 when it is a folder. */
     bytes: number;
+    /** Whether it stays in the folder of the studio. */
+    is_kept: boolean;
     message: string;
 }
 

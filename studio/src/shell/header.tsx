@@ -8,7 +8,9 @@ import { HelpIcon, Mark, MoonIcon, RedoIcon, SunIcon, UndoIcon } from "./icons";
 import { dark, toggle_theme } from "./theme";
 
 const tabs: { word: Tab; label: string }[] = [
-    { word: "design", label: "Design" }, { word: "check", label: "Check" }, { word: "make", label: "Make" },
+    { word: "design", label: "Design" },
+    { word: "check", label: "Check" },
+    { word: "make", label: "Make" },
 ];
 
 function Tabs() {
@@ -24,8 +26,19 @@ function Tabs() {
     return (
         <div class="tabs" role="tablist" aria-label="Steps" ref={row} onKeyDown={move}>
             {tabs.map(({ word, label }) => (
-                <button key={word} id={`tab-${word}`} role="tab" aria-selected={tab.value === word} aria-controls="left-panel"
-                    tabIndex={tab.value === word ? 0 : -1} onClick={() => { tab.value = word; }}>{label}</button>
+                <button
+                    key={word}
+                    id={`tab-${word}`}
+                    role="tab"
+                    aria-selected={tab.value === word}
+                    aria-controls="left-panel"
+                    tabIndex={tab.value === word ? 0 : -1}
+                    onClick={() => {
+                        tab.value = word;
+                    }}
+                >
+                    {label}
+                </button>
             ))}
         </div>
     );
@@ -38,25 +51,83 @@ export function Header() {
         <header class="top">
             <Mark />
             <h1>Lamella</h1>
-            {has_recipe && <span class="recipe-name" title={unsaved.value ? "Not saved" : "Saved"}>
-                {path.value ?? "unnamed recipe"}{unsaved.value && <span class="unsaved" aria-label="not saved">●</span>}
-            </span>}
+            {has_recipe && (
+                <span class="recipe-name" title={unsaved.value ? "Not saved" : "Saved"}>
+                    {path.value ?? "unnamed recipe"}
+                    {unsaved.value && (
+                        <span class="unsaved" aria-label="not saved">
+                            ●
+                        </span>
+                    )}
+                </span>
+            )}
             {has_recipe && <Tabs />}
             <div class="top-buttons">
-                {has_recipe && <button class="quiet" title="Start with another model or example"
-                    onClick={() => { starting.value = true; }}>New</button>}
-                {starting.value && text.value.trim() !== "" && <button class="quiet"
-                    onClick={() => { starting.value = false; }}>Back</button>}
-                {has_recipe && <button class="quiet" title="Save the recipe (Ctrl+S)" disabled={!unsaved.value && path.value !== null}
-                    onClick={() => void save()}>Save</button>}
-                <button class="icon-button" title="Undo (Ctrl+Z)" aria-label="Undo" disabled={!can_undo.value}
-                    onClick={undo}><UndoIcon /></button>
-                <button class="icon-button" title="Redo (Ctrl+Shift+Z)" aria-label="Redo" disabled={!can_redo.value}
-                    onClick={redo}><RedoIcon /></button>
-                <button class="icon-button" title={dark.value ? "Light colours" : "Dark colours"}
-                    aria-label={dark.value ? "Light colours" : "Dark colours"} onClick={toggle_theme}>
-                    {dark.value ? <SunIcon /> : <MoonIcon />}</button>
-                <button class="icon-button" title="Keys" aria-label="Keys" onClick={() => help.current?.showModal()}><HelpIcon /></button>
+                {has_recipe && (
+                    <button
+                        class="quiet"
+                        title="Start with another model or example"
+                        onClick={() => {
+                            starting.value = true;
+                        }}
+                    >
+                        New
+                    </button>
+                )}
+                {starting.value && text.value.trim() !== "" && (
+                    <button
+                        class="quiet"
+                        onClick={() => {
+                            starting.value = false;
+                        }}
+                    >
+                        Back
+                    </button>
+                )}
+                {has_recipe && (
+                    <button
+                        class="quiet"
+                        title="Save the recipe (Ctrl+S)"
+                        disabled={!unsaved.value && path.value !== null}
+                        onClick={() => void save()}
+                    >
+                        Save
+                    </button>
+                )}
+                <button
+                    class="icon-button"
+                    title="Undo (Ctrl+Z)"
+                    aria-label="Undo"
+                    disabled={!can_undo.value}
+                    onClick={undo}
+                >
+                    <UndoIcon />
+                </button>
+                <button
+                    class="icon-button"
+                    title="Redo (Ctrl+Shift+Z)"
+                    aria-label="Redo"
+                    disabled={!can_redo.value}
+                    onClick={redo}
+                >
+                    <RedoIcon />
+                </button>
+                <button
+                    class="icon-button"
+                    title={dark.value ? "Light colours" : "Dark colours"}
+                    aria-label={dark.value ? "Light colours" : "Dark colours"}
+                    onClick={toggle_theme}
+                >
+                    {dark.value ? <SunIcon /> : <MoonIcon />}
+                </button>
+                <button
+                    class="icon-button"
+                    title="Keys"
+                    aria-label="Keys"
+                    onClick={() => help.current?.showModal()}
+                >
+                    <HelpIcon />
+                </button>
             </div>
             <HelpDialog dialog={help} />
         </header>

@@ -19,10 +19,23 @@ export function HelpDialog({ dialog }: { dialog: RefObject<HTMLDialogElement | n
     return (
         <dialog ref={dialog} class="help-dialog" aria-labelledby="help-title">
             <h2 id="help-title">Keys</h2>
-            <dl>{keys.map(([key, what]) => <div key={key}><dt>{key}</dt><dd>{what}</dd></div>)}</dl>
-            <p class="soft">Lamella {version.value?.version ?? ""}. Everything that this page shows comes from the
-                server's HTTP interface.</p>
-            <form method="dialog"><button class="primary">Close</button></form>
+            <dl>
+                {keys.map(([key, what]) => (
+                    <div key={key}>
+                        <dt>{key}</dt>
+                        <dd>{what}</dd>
+                    </div>
+                ))}
+            </dl>
+            <p class="soft">
+                Lamella {version.value?.version ?? ""}. Everything that this page shows comes from the
+                server's HTTP interface.
+            </p>
+            <div class="help-end">
+                <button class="primary" onClick={() => dialog.current?.close()}>
+                    Close
+                </button>
+            </div>
         </dialog>
     );
 }

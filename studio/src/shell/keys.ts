@@ -8,7 +8,12 @@ const tab_keys: Record<string, Tab> = { Digit1: "design", Digit2: "check", Digit
 /** Whether a key belongs to what is being typed. */
 function is_typing(event: KeyboardEvent): boolean {
     const target = event.composedPath()[0] as HTMLElement;
-    if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement) return true;
+    if (
+        target.isContentEditable ||
+        target instanceof HTMLTextAreaElement ||
+        target instanceof HTMLSelectElement
+    )
+        return true;
     return target instanceof HTMLInputElement && !["checkbox", "range", "file"].includes(target.type);
 }
 
@@ -16,7 +21,7 @@ function with_control(event: KeyboardEvent): void {
     const key = event.key.toLowerCase();
     if (key === "s") {
         event.preventDefault();
-        (document.activeElement as HTMLElement | null)?.blur();  // takes over what is being typed
+        (document.activeElement as HTMLElement | null)?.blur(); // takes over what is being typed
         void save();
     } else if ((key === "z" || key === "y") && !is_typing(event)) {
         event.preventDefault();

@@ -6,11 +6,25 @@ export function Messages() {
     const shown = notice.value;
     return (
         <div class="messages">
-            {away.value && <div class="banner" role="alert">The server is away. The page goes on as soon as it is back.</div>}
-            {shown && <div class={`notice ${shown.kind}`} role={shown.kind === "error" ? "alert" : "status"}>
-                <span>{shown.text}</span>
-                <button class="quiet" aria-label="Close the message" onClick={() => { notice.value = null; }}>×</button>
-            </div>}
+            {away.value && (
+                <div class="banner" role="alert">
+                    The server is away. The page goes on as soon as it is back.
+                </div>
+            )}
+            {shown && (
+                <div class={`notice ${shown.kind}`} role={shown.kind === "error" ? "alert" : "status"}>
+                    <span>{shown.text}</span>
+                    <button
+                        class="quiet"
+                        aria-label="Close the message"
+                        onClick={() => {
+                            notice.value = null;
+                        }}
+                    >
+                        ×
+                    </button>
+                </div>
+            )}
         </div>
     );
 }

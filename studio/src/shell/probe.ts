@@ -20,8 +20,11 @@ export const probe: Probe = {
             job: job.value?.job ?? null,
             layers: job.value?.layers.count ?? 0,
             layer: layer.value,
-            shown: picture.value ? { job: picture.value.job, layer: picture.value.layer, exact: picture.value.exact }
-                : lines.value ? { job: lines.value.job, layer: lines.value.layer } : null,
+            shown: picture.value
+                ? { job: picture.value.job, layer: picture.value.layer, exact: picture.value.exact }
+                : lines.value
+                  ? { job: lines.value.job, layer: lines.value.layer }
+                  : null,
             voxels: shown_voxels.value,
             scale: stage.value?.pace.scale ?? 0,
             text: text.value,

@@ -26,10 +26,24 @@ export function Segments<Word extends string>({ choices, value, choose, label, l
         (row.children[next] as HTMLElement).focus();
     };
     return (
-        <div class="segments" role="radiogroup" aria-label={label} aria-labelledby={labelled_by} onKeyDown={move}>
+        <div
+            class="segments"
+            role="radiogroup"
+            aria-label={label}
+            aria-labelledby={labelled_by}
+            onKeyDown={move}
+        >
             {choices.map(({ word, label: shown, title }) => (
-                <button key={word} role="radio" aria-checked={word === value} tabIndex={word === value ? 0 : -1}
-                    title={title} onClick={() => choose(word)}>{shown}</button>
+                <button
+                    key={word}
+                    role="radio"
+                    aria-checked={word === value}
+                    tabIndex={word === value ? 0 : -1}
+                    title={title}
+                    onClick={() => choose(word)}
+                >
+                    {shown}
+                </button>
             ))}
         </div>
     );

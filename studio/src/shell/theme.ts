@@ -9,8 +9,12 @@ const chosen = signal(localStorage.getItem(kept_as));
 export const dark = computed(() => (chosen.value ? chosen.value === "dark" : system_dark.value));
 
 export function start_theme(): void {
-    system.addEventListener("change", () => { system_dark.value = system.matches; });
-    effect(() => { document.documentElement.dataset.theme = dark.value ? "dark" : "light"; });
+    system.addEventListener("change", () => {
+        system_dark.value = system.matches;
+    });
+    effect(() => {
+        document.documentElement.dataset.theme = dark.value ? "dark" : "light";
+    });
 }
 
 export function toggle_theme(): void {

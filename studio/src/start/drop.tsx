@@ -17,7 +17,9 @@ export function listen_to_drops(): void {
         depth = Math.max(0, depth - 1);
         if (!depth) dragging.value = false;
     });
-    addEventListener("dragover", (event) => { if (has_files(event)) event.preventDefault(); });
+    addEventListener("dragover", (event) => {
+        if (has_files(event)) event.preventDefault();
+    });
     addEventListener("drop", (event) => {
         if (!has_files(event)) return;
         event.preventDefault();
@@ -29,6 +31,13 @@ export function listen_to_drops(): void {
 
 export function DropShade() {
     if (!dragging.value) return null;
-    return <div class="drop-shade"><p>{starting.value ? "Drop the model to begin a recipe"
-        : "Drop the model to make it the part of this recipe"}</p></div>;
+    return (
+        <div class="drop-shade">
+            <p>
+                {starting.value
+                    ? "Drop the model to begin a recipe"
+                    : "Drop the model to make it the part of this recipe"}
+            </p>
+        </div>
+    );
 }

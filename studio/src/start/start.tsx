@@ -10,19 +10,35 @@ export function Start() {
         <main class="start">
             <div class="start-inside">
                 <h2>Begin with a model</h2>
-                <button class="drop-zone" disabled={sending.value !== ""} onClick={() => chooser.current?.click()}>
-                    <b>{sending.value ? `Sending ${sending.value}…` : "Drop a model here, or choose a file"}</b>
+                <button
+                    class="drop-zone"
+                    disabled={sending.value !== ""}
+                    onClick={() => chooser.current?.click()}
+                >
+                    <b>
+                        {sending.value ? `Sending ${sending.value}…` : "Drop a model here, or choose a file"}
+                    </b>
                     <span>STL, OBJ, PLY or 3MF; a recipe (TOML) opens as it is</span>
                 </button>
-                <input ref={chooser} type="file" hidden accept=".stl,.obj,.ply,.3mf,.toml" aria-label="Model"
+                <input
+                    ref={chooser}
+                    type="file"
+                    hidden
+                    accept=".stl,.obj,.ply,.3mf,.toml"
+                    aria-label="Model"
                     onChange={(event) => {
                         void take_files(event.currentTarget.files ?? []);
                         event.currentTarget.value = "";
-                    }} />
+                    }}
+                />
                 <div class="start-machine">
                     <label for="start-machine">Machine</label>
-                    <MachineSelect id="start-machine" value={machine_for_new.value} choose={choose_machine_for_new}
-                        none="the recipe's own, or the usual one" />
+                    <MachineSelect
+                        id="start-machine"
+                        value={machine_for_new.value}
+                        choose={choose_machine_for_new}
+                        none="the recipe's own, or the usual one"
+                    />
                 </div>
                 <h2>Or with an example</h2>
                 <ul class="gallery">

@@ -2,7 +2,9 @@
 import { signal } from "@preact/signals";
 import { edit_recipe, send_file } from "../server/api";
 import { Failure } from "../server/http";
+import type { Change } from "../server/types";
 import { mesh_changes } from "../form/changes";
+import { headers } from "../form/places";
 import { mesh_endings } from "../form/path_control";
 import { report } from "../state/notices";
 import { edit, open_text } from "../state/recipe";
@@ -18,17 +20,36 @@ export function choose_machine_for_new(name: string): void {
 }
 
 function new_recipe(mesh: string): string {
-    const unit = /\.(stl|obj|ply)$/i.test(mesh) ? `unit = "mm"` + " ".repeat(12) + "# the file does not say\n" : "";
-    return `[part]\nmesh = ${JSON.stringify(mesh)}\n${unit}\n[foam]\ncell = 4               # mean diameter of a cell, mm\n` +
-        "beam = 0.5             # radius of the beams, mm\n\n[skin]\nthickness = 0.8        # mm\n";
+    const names_unit = /\.3mf$/i.test(mesh);
+    const lines = [
+        "[part]",
+        `mesh = ${JSON.stringify(mesh)}`,
+        ...(names_unit ? [] : ['unit = "mm"        # the file does not say']),
+        "",
+        "[foam]",
+        "cell = 4           # mean diameter of a cell, mm",
+        "beam = 0.5         # radius of the beams, mm",
+        "",
+        "[skin]",
+        "thickness = 0.8    # mm",
+        "",
+    ];
+    return lines.join("\n");
+}
+
+/** Changes that give a recipe another machine: keys for the one before may not go with it. */
+function machine_changes(recipe: string, machine: string): Change[] {
+    const had = headers(recipe).some((one) => one.section === "printer");
+    const fresh = { section: "printer", key: "profile", value: machine };
+    return had ? [{ section: "printer", key: null, value: null }, fresh] : [fresh];
 }
 
 /** Opens a new recipe, for the machine that was chosen. */
 export async function open_new(recipe: string): Promise<void> {
     try {
         const machine = machine_for_new.value;
-        const changes = [{ section: "printer", key: "profile", value: machine }];
-        open_text(machine ? (await edit_recipe(recipe, changes)).text : recipe);
+        const changed = machine && (await edit_recipe(recipe, machine_changes(recipe, machine))).text;
+        open_text(changed || recipe);
         tab.value = "design";
     } catch (error) {
         report(error);
@@ -48,7 +69,11 @@ export async function take_files(files: FileList | File[]): Promise<void> {
         return;
     }
     if (!mesh_endings.some((ending) => name.endsWith(ending))) {
-        report(new Error(`${file.name}: not a model. STL, OBJ, PLY and 3MF files can be dropped, and recipes (TOML).`));
+        report(
+            new Error(
+                `${file.name}: not a model. STL, OBJ, PLY and 3MF files can be dropped, and recipes (TOML).`,
+            ),
+        );
         return;
     }
     sending.value = file.name;
@@ -57,7 +82,11 @@ export async function take_files(files: FileList | File[]): Promise<void> {
         if (starting.value || !text.value.trim()) await open_new(new_recipe(path));
         else edit(mesh_changes(path));
     } catch (error) {
-        report(error instanceof Failure && error.status === 0 ? new Error(`${file.name} was not sent: ${error.message}`) : error);
+        report(
+            error instanceof Failure && error.status === 0
+                ? new Error(`${file.name} was not sent: ${error.message}`)
+                : error,
+        );
     }
     sending.value = "";
 }

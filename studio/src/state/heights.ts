@@ -21,7 +21,7 @@ export function slab_of(job: Job, layer: number): Slab {
 /** The plane in which a layer is cut, mm in the space of the job. */
 export function plane_of(job: Job, layer: number): number {
     const { begin, height } = slab_of(job, layer);
-    return job.bounds.lo[2] + begin + height / 2;
+    return job.z0 + begin + height / 2;
 }
 
 /** The layer at a height over the bed, mm. */

@@ -6,7 +6,7 @@ import type { Job } from "../server/types";
 import { layer_at, slab_of } from "./heights";
 import { notice, report } from "./notices";
 import { edits_wait, forget_pending } from "./recipe";
-import { build_progress, building, job, layer, mistakes, text, values } from "./store";
+import { build_progress, building, job, layer, mistakes, opened, text, values } from "./store";
 
 /** Changes within this time make one job, ms. */
 const gather = 60;
@@ -58,7 +58,7 @@ async function take_values(recipe: string, signal: AbortSignal): Promise<void> {
             if (recipe === text.value && !edits_wait()) forget_pending();
         });
     } catch (error) {
-        if (!(error instanceof Failure && error.status === 422)) report(error);  // the job names the mistakes
+        if (!(error instanceof Failure && error.status === 422)) report(error); // the job names the mistakes
     }
 }
 
@@ -85,13 +85,14 @@ async function take_job(recipe: string, mine: AbortController): Promise<void> {
         building.value = false;
         build_progress.value = null;
     });
-    if (timer) start();  // a change waited for this job
+    if (timer) start(); // a change waited for this job
 }
 
 /** Takes the job over; the layer that is looked at stays at its height. */
 function keep_height(made: Job): void {
-    const old = job.value;
+    const old = opened.value ? null : job.value;
     const slab = old && slab_of(old, layer.value);
+    opened.value = false;
     const wanted = slab ? slab.begin + slab.height / 2 : made.layers.height_mm / 2;
     layer.value = layer_at(made, wanted);
     job.value = made;

@@ -13,7 +13,10 @@ export const notice = signal<Notice | null>(null);
 export function report(error: unknown): void {
     if (error instanceof Failure && (error.outdated || error.status === 0)) return;
     const mistakes = error instanceof Failure ? error.mistakes.map((one) => one.text).join("; ") : "";
-    notice.value = { text: mistakes || (error instanceof Error ? error.message : String(error)), kind: "error" };
+    notice.value = {
+        text: mistakes || (error instanceof Error ? error.message : String(error)),
+        kind: "error",
+    };
 }
 
 let timer = 0;
@@ -23,5 +26,7 @@ export function confirm_done(text: string): void {
     const mine: Notice = { text, kind: "done" };
     notice.value = mine;
     clearTimeout(timer);
-    timer = window.setTimeout(() => { if (notice.value === mine) notice.value = null; }, 2500);
+    timer = window.setTimeout(() => {
+        if (notice.value === mine) notice.value = null;
+    }, 2500);
 }

@@ -6,7 +6,7 @@ import type { Change } from "../server/types";
 import { remember, step_back, step_forward } from "./history";
 import { refresh } from "./jobs";
 import { confirm_done, report } from "./notices";
-import { edit_mistakes, path, saved_text, starting, text } from "./store";
+import { edit_mistakes, opened, path, saved_text, starting, text } from "./store";
 
 /** Values that the form shows before the server has answered, by place_of. */
 export const pending = signal<Record<string, string | null>>({});
@@ -26,6 +26,7 @@ export function set_text(next: string, what: string): void {
 /** Opens another recipe: it has no steps in common with the one before, but undo leads back to it. */
 export function open_text(next: string): void {
     starting.value = false;
+    opened.value = true;
     edit_mistakes.value = [];
     pending.value = {};
     set_text(next, `open ${Date.now()}`);
@@ -58,7 +59,8 @@ async function send_edits(): Promise<void> {
         const before = text.value;
         try {
             const edited = await edit_recipe(before, changes);
-            if (text.value !== before) {  // the text changed meanwhile: the edit belongs to the new one
+            if (text.value !== before) {
+                // the text changed meanwhile: the edit belongs to the new one
                 edit(changes, what);
                 continue;
             }
@@ -105,6 +107,8 @@ export async function save(name: string | null = path.value): Promise<void> {
         saved_text.value = kept;
         confirm_done(`Saved as ${answer.path}`);
     } catch (error) {
-        report(error instanceof Failure && error.status === 0 ? new Error("Not saved: " + error.message) : error);
+        report(
+            error instanceof Failure && error.status === 0 ? new Error("Not saved: " + error.message) : error,
+        );
     }
 }

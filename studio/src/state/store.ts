@@ -21,6 +21,8 @@ export const job = signal<Job | null>(null);
 export const building = signal(false);
 export const build_progress = signal<{ done: number; of: number; text: string } | null>(null);
 export const layer = signal(0);
+/** Whether the next job is of another recipe: its middle is shown, not the height of before. */
+export const opened = signal(true);
 
 export const report_of_check = signal<{ job: string; report: Report } | null>(null);
 

@@ -1,5 +1,5 @@
 // The recipe as text, with TOML highlighted and mistakes at their lines.
-// The editor lives in a shadow root: there its styles are adopted style sheets, which the page's policy allows.
+// The editor lives in a shadow root: there its styles are adopted style sheets, which the policy allows.
 import { defaultKeymap, indentWithTab } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
 import { toml } from "@codemirror/legacy-modes/mode/toml";
@@ -9,18 +9,21 @@ import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } f
 import { tags } from "@lezer/highlight";
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { MistakeList } from "../shell/mistake_list";
 import { redo, set_text, undo } from "../state/recipe";
 import { edit_mistakes, mistakes, text, wanted_line } from "../state/store";
 
 /** A pause in typing of this length makes the text the recipe, ms. */
 const pause = 400;
 
-const colours = syntaxHighlighting(HighlightStyle.define([
-    { tag: tags.comment, color: "var(--code-comment)" },
-    { tag: [tags.string, tags.special(tags.string)], color: "var(--code-string)" },
-    { tag: [tags.number, tags.atom, tags.bool], color: "var(--code-number)" },
-    { tag: tags.propertyName, color: "var(--code-key)" },
-]));
+const colours = syntaxHighlighting(
+    HighlightStyle.define([
+        { tag: tags.comment, color: "var(--code-comment)" },
+        { tag: [tags.string, tags.special(tags.string)], color: "var(--code-string)" },
+        { tag: [tags.number, tags.atom, tags.bool], color: "var(--code-number)" },
+        { tag: tags.propertyName, color: "var(--code-key)" },
+    ]),
+);
 
 const look = EditorView.theme({
     "&": { height: "100%", color: "var(--ink)", backgroundColor: "var(--field)", fontSize: "12.5px" },
@@ -30,7 +33,9 @@ const look = EditorView.theme({
     ".cm-cursor": { borderLeftColor: "var(--ink)" },
     ".cm-gutters": { backgroundColor: "var(--field)", color: "var(--ink-soft)", border: "none" },
     ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "var(--hover)" },
-    "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--select) !important" },
+    "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": {
+        backgroundColor: "var(--select) !important",
+    },
     ".cm-tooltip": { backgroundColor: "var(--panel)", color: "var(--ink)", border: "1px solid var(--line)" },
 });
 
@@ -63,15 +68,37 @@ function mount(room: HTMLElement): () => void {
         state: EditorState.create({
             doc: text.peek(),
             extensions: [
-                lineNumbers(), drawSelection(), highlightActiveLine(), lintGutter(), StreamLanguage.define(toml), colours, look,
-                keymap.of([{ key: "Mod-z", run: history_key(undo), preventDefault: true },
-                    { key: "Mod-y", run: history_key(redo) }, { key: "Mod-Shift-z", run: history_key(redo) },
+                lineNumbers(),
+                drawSelection(),
+                highlightActiveLine(),
+                lintGutter(),
+                StreamLanguage.define(toml),
+                colours,
+                look,
+                keymap.of([
+                    { key: "Mod-z", run: history_key(undo), preventDefault: true },
+                    { key: "Mod-y", run: history_key(redo) },
+                    { key: "Mod-Shift-z", run: history_key(redo) },
                     // Escape leaves the editor for those who use the keyboard alone, since Tab indents.
-                    { key: "Escape", run: () => { editor.contentDOM.blur(); room.focus(); return true; } },
-                    indentWithTab, ...defaultKeymap]),
-                EditorView.contentAttributes.of({ "aria-label": "Recipe", spellcheck: "false", autocapitalize: "off" }),
+                    {
+                        key: "Escape",
+                        run: () => {
+                            editor.contentDOM.blur();
+                            room.focus();
+                            return true;
+                        },
+                    },
+                    indentWithTab,
+                    ...defaultKeymap,
+                ]),
+                EditorView.contentAttributes.of({
+                    "aria-label": "Recipe",
+                    spellcheck: "false",
+                    autocapitalize: "off",
+                }),
                 EditorView.updateListener.of((update) => {
-                    if (!update.docChanged || update.transactions.some((one) => one.isUserEvent("studio"))) return;
+                    if (!update.docChanged || update.transactions.some((one) => one.isUserEvent("studio")))
+                        return;
                     clearTimeout(timer);
                     timer = window.setTimeout(commit, pause);
                 }),
@@ -79,7 +106,8 @@ function mount(room: HTMLElement): () => void {
         }),
     });
     const stops = [
-        effect(() => {  // changes by the form, by undo or by another recipe
+        effect(() => {
+            // changes by the form, by undo or by another recipe
             const next = text.value;
             if (timer || next === editor.state.doc.toString()) return;
             const changes = { from: 0, to: editor.state.doc.length, insert: next };
@@ -93,7 +121,10 @@ function mount(room: HTMLElement): () => void {
             const wanted = wanted_line.value;
             if (!wanted || wanted.line > editor.state.doc.lines) return;
             const { from } = editor.state.doc.line(Math.max(1, wanted.line));
-            editor.dispatch({ selection: { anchor: from }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+            editor.dispatch({
+                selection: { anchor: from },
+                effects: EditorView.scrollIntoView(from, { y: "center" }),
+            });
             editor.focus();
             wanted_line.value = null;
         }),
@@ -111,6 +142,7 @@ export function TextEditor() {
     return (
         <div class="text-editor">
             <div class="text-room" ref={room} tabIndex={-1} />
+            <MistakeList list={[...mistakes.value, ...edit_mistakes.value]} />
             <p class="text-hint">Escape leaves the text. Comments and order are kept by the form.</p>
         </div>
     );

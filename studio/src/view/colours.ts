@@ -5,7 +5,7 @@ import type { Colours } from "./renderer";
 function read(style: CSSStyleDeclaration, name: string): Triple {
     const hex = style.getPropertyValue(name).trim();
     const number = Number.parseInt(hex.slice(1), 16);
-    return [(number >> 16 & 255) / 255, (number >> 8 & 255) / 255, (number & 255) / 255];
+    return [((number >> 16) & 255) / 255, ((number >> 8) & 255) / 255, (number & 255) / 255];
 }
 
 export function read_colours(): Colours {

@@ -26,7 +26,8 @@ export function cut_of(made: Job | null): Cut {
     if (!made || chosen === "none") return no_cut;
     if (chosen === "layer") return { axis: 2, at: plane_of(made, layer.value), below: false };
     const axis = "xyz".indexOf(chosen);
-    const lo = made.bounds.lo[axis]!, hi = made.bounds.hi[axis]!;
+    const lo = made.bounds.lo[axis]!,
+        hi = made.bounds.hi[axis]!;
     return { axis, at: lo + (hi - lo) * cut_share.value, below: cut_below.value };
 }
 

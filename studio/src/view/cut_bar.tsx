@@ -21,8 +21,10 @@ function choose(axis: CutAxis): void {
         cut_below.value = false;
         return;
     }
-    const eye = at === 0 ? camera.camera.position.x - camera.controls.target.x
-        : camera.camera.position.y - camera.controls.target.y;
+    const eye =
+        at === 0
+            ? camera.camera.position.x - camera.controls.target.x
+            : camera.camera.position.y - camera.controls.target.y;
     cut_below.value = eye < 0;
 }
 
@@ -32,16 +34,36 @@ export function CutBar() {
     const sliding = cut_axis.value !== "none" && cut_axis.value !== "layer";
     return (
         <div class="cut-bar">
-            <span class="cut-name" id="cut-name">Cut</span>
+            <span class="cut-name" id="cut-name">
+                Cut
+            </span>
             <Segments labelled_by="cut-name" choices={choices} value={cut_axis.value} choose={choose} />
-            {sliding && <>
-                <input type="range" min="0" max="1" step="0.002" value={cut_share.value} aria-label="Place of the cut"
-                    aria-valuetext={`${cut.value.at.toFixed(2)} mm`}
-                    onInput={(event) => { cut_share.value = event.currentTarget.valueAsNumber; }} />
-                <output class="cut-at">{cut.value.at.toFixed(1)} mm</output>
-                <button class="quiet" title="Take the other side away"
-                    onClick={() => { cut_below.value = !cut_below.value; }}>flip</button>
-            </>}
+            {sliding && (
+                <>
+                    <input
+                        type="range"
+                        min="0"
+                        max="1"
+                        step="0.002"
+                        value={cut_share.value}
+                        aria-label="Place of the cut"
+                        aria-valuetext={`${cut.value.at.toFixed(2)} mm`}
+                        onInput={(event) => {
+                            cut_share.value = event.currentTarget.valueAsNumber;
+                        }}
+                    />
+                    <output class="cut-at">{cut.value.at.toFixed(1)} mm</output>
+                    <button
+                        class="quiet"
+                        title="Take the other side away"
+                        onClick={() => {
+                            cut_below.value = !cut_below.value;
+                        }}
+                    >
+                        flip
+                    </button>
+                </>
+            )}
         </div>
     );
 }

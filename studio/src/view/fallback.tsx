@@ -22,7 +22,12 @@ export function Fallback() {
             const rest = { cut: "xyz".includes(axis) ? axis : "-", cut_at: share };
             latest.run(async (signal) => {
                 const { azimuth, elevation } = on.orbit.angles();
-                const view = { width, azimuth: Math.round(azimuth), elevation: Math.round(elevation), ...rest };
+                const view = {
+                    width,
+                    azimuth: Math.round(azimuth),
+                    elevation: Math.round(elevation),
+                    ...rest,
+                };
                 const url = URL.createObjectURL(await get_frame(made, view, signal));
                 if (picture.value) URL.revokeObjectURL(picture.value);
                 picture.value = url;
@@ -36,5 +41,7 @@ export function Fallback() {
             URL.revokeObjectURL(picture.value);
         };
     }, []);
-    return picture.value ? <img class="view-picture" src={picture.value} alt="The part, drawn by the server" /> : null;
+    return picture.value ? (
+        <img class="view-picture" src={picture.value} alt="The part, drawn by the server" />
+    ) : null;
 }

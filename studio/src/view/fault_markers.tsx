@@ -20,10 +20,18 @@ export function FaultMarkers() {
     return (
         <div class="fault-markers">
             {list.map((fault) => (
-                <button key={fault.name} tabIndex={-1} title={fault.name}
+                <button
+                    key={fault.name}
+                    tabIndex={-1}
+                    title={fault.name}
                     class={`fault-marker ${fault.verdict}${fault === shown_fault.value ? " chosen" : ""}`}
-                    aria-label={`Go to ${fault.name}`} onClick={() => go_to_fault(fault)}
-                    ref={(mark) => { if (mark) marks.current.set(fault, mark); else marks.current.delete(fault); }} />
+                    aria-label={`Go to ${fault.name}`}
+                    onClick={() => go_to_fault(fault)}
+                    ref={(mark) => {
+                        if (mark) marks.current.set(fault, mark);
+                        else marks.current.delete(fault);
+                    }}
+                />
             ))}
         </div>
     );

@@ -25,19 +25,25 @@ out vec4 colour;
 vec2 coverage(vec3 p) { return texture(volume, (p - lo) / (hi - lo)).rg; }
 float value(vec3 p) { vec2 c = coverage(p); return max(c.r, c.g); }
 
+float around(vec3 p) {  // as value, but nothing is outside the box
+    vec3 q = (p - lo) / (hi - lo);
+    vec2 c = texture(volume, q).rg;
+    return all(equal(q, clamp(q, 0.0, 1.0))) ? max(c.r, c.g) : 0.0;
+}
+
 vec3 gradient(vec3 p) {  // samples on two shells, wide enough to smooth the steps between slices
     const vec3 k = vec3(1.0, -1.0, 0.0);
-    float h = 1.15 * voxel, g = 2.1 * voxel;
+    float h = 1.1 * voxel, g = 1.9 * voxel;
     if (!fine) {
-        return -(k.xyy * value(p + k.xyy * h) + k.yyx * value(p + k.yyx * h) + k.yxy * value(p + k.yxy * h) +
-                 k.xxx * value(p + k.xxx * h));
+        return -(k.xyy * around(p + k.xyy * h) + k.yyx * around(p + k.yyx * h) +
+                 k.yxy * around(p + k.yxy * h) + k.xxx * around(p + k.xxx * h));
     }
-    vec3 sum = k.xyy * value(p + k.xyy * h) + k.yyx * value(p + k.yyx * h) + k.yxy * value(p + k.yxy * h) +
-               k.xxx * value(p + k.xxx * h) + k.yxx * value(p + k.yxx * h) + k.xxy * value(p + k.xxy * h) +
-               k.xyx * value(p + k.xyx * h) + k.yyy * value(p + k.yyy * h);
-    sum.x += value(p + k.xzz * g) - value(p + k.yzz * g);
-    sum.y += value(p + k.zxz * g) - value(p + k.zyz * g);
-    sum.z += value(p + k.zzx * g) - value(p + k.zzy * g);
+    vec3 sum = k.xyy * around(p + k.xyy * h) + k.yyx * around(p + k.yyx * h) + k.yxy * around(p + k.yxy * h) +
+               k.xxx * around(p + k.xxx * h) + k.yxx * around(p + k.yxx * h) + k.xxy * around(p + k.xxy * h) +
+               k.xyx * around(p + k.xyx * h) + k.yyy * around(p + k.yyy * h);
+    sum.x += around(p + k.xzz * g) - around(p + k.yzz * g);
+    sum.y += around(p + k.zxz * g) - around(p + k.zyz * g);
+    sum.z += around(p + k.zzx * g) - around(p + k.zzy * g);
     return -sum;
 }
 
@@ -45,7 +51,7 @@ vec3 shade(vec3 base, vec3 normal, vec3 ray, vec3 p) {
     vec3 key = normalize(vec3(-ray.y, ray.x, 0.0) * 0.5 - ray + vec3(0.0, 0.0, 0.7));
     float diffuse = max(0.0, dot(normal, key));
     float sky = 0.5 + 0.5 * normal.z;
-    float near = value(p + normal * voxel * 2.5), far = fine ? value(p + normal * voxel * 6.0) : near;
+    float near = around(p + normal * voxel * 2.5), far = fine ? around(p + normal * voxel * 6.0) : near;
     float open = 1.0 - 0.35 * near - 0.3 * far;
     float shine = pow(max(0.0, dot(normal, normalize(key - ray))), 40.0) * 0.12;
     return base * (0.26 + 0.24 * sky + 0.66 * diffuse) * open + shine * open;
@@ -118,11 +124,7 @@ void main() {
     } else {
         vec3 normal = gradient(p);
         float size = length(normal);
-        vec3 face = vec3(0.0);
-        if (entries.x >= entries.y && entries.x >= entries.z) face.x = -sign(ray.x);
-        else if (entries.y >= entries.z) face.y = -sign(ray.y);
-        else face.z = -sign(ray.z);
-        normal = at_entry || size < 0.02 ? face : normal / size;
+        normal = size < 0.02 ? -ray : normal / size;
         if (dot(normal, ray) > 0.0) normal = normalize(normal - ray * dot(normal, ray));
         colour = vec4(shade(is_support ? support_colour : part_colour, normal, ray, p), 1.0);
     }

@@ -39,6 +39,6 @@ export class Pace {
     get fps(): number {
         const recent = this.times.filter((time) => this.times.at(-1)! - time <= 2000);
         if (recent.length < 2) return 0;
-        return 1000 * (recent.length - 1) / (recent.at(-1)! - recent[0]!);
+        return (1000 * (recent.length - 1)) / (recent.at(-1)! - recent[0]!);
     }
 }

@@ -6,7 +6,13 @@ import { type Cut, clipped } from "./cut";
 import { type Volume, coverage_at } from "./volume";
 
 /** Returns the place in mm; null when the ray meets nothing. `x`, `y`: on the screen, -1 to 1. */
-export function pick(volume: Volume, camera: PerspectiveCamera, x: number, y: number, cut: Cut): Triple | null {
+export function pick(
+    volume: Volume,
+    camera: PerspectiveCamera,
+    x: number,
+    y: number,
+    cut: Cut,
+): Triple | null {
     const eye = camera.position;
     const ray = new Vector3(x, y, 0.5).unproject(camera).sub(eye).normalize();
     const from: Triple = [eye.x, eye.y, eye.z];
@@ -15,7 +21,8 @@ export function pick(volume: Volume, camera: PerspectiveCamera, x: number, y: nu
     let begin = 0;
     let end = Infinity;
     for (let k = 0; k < 3; ++k) {
-        const a = (lo[k]! - from[k]!) / (along[k]! || 1e-9), b = (hi[k]! - from[k]!) / (along[k]! || 1e-9);
+        const a = (lo[k]! - from[k]!) / (along[k]! || 1e-9),
+            b = (hi[k]! - from[k]!) / (along[k]! || 1e-9);
         begin = Math.max(begin, Math.min(a, b));
         end = Math.min(end, Math.max(a, b));
     }

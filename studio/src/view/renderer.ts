@@ -33,17 +33,27 @@ export class Renderer {
     private readonly matrix = new Matrix4();
     private volume: Volume | null = null;
     private textures: WebGLTexture[] = [];
-    private still: { width: number; height: number; buffer: WebGLFramebuffer; pixels: WebGLRenderbuffer } | null = null;
+    private still: {
+        width: number;
+        height: number;
+        buffer: WebGLFramebuffer;
+        pixels: WebGLRenderbuffer;
+    } | null = null;
 
     /** Returns null when the browser has no WebGL2. */
     static make(canvas: HTMLCanvasElement): Renderer | null {
-        const gl = canvas.getContext("webgl2", { alpha: true, antialias: false, depth: false,
-            premultipliedAlpha: true, powerPreference: "high-performance" });
+        const gl = canvas.getContext("webgl2", {
+            alpha: true,
+            antialias: false,
+            depth: false,
+            premultipliedAlpha: true,
+            powerPreference: "high-performance",
+        });
         if (!gl) return null;
         try {
             return new Renderer(gl);
         } catch {
-            return null;  // a browser that has the interface but cannot compile for its device
+            return null; // a browser that has the interface but cannot compile for its device
         }
     }
 
@@ -61,7 +71,10 @@ export class Renderer {
     private link(): WebGLProgram {
         const gl = this.gl;
         const program = gl.createProgram();
-        for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const) {
+        for (const [type, source] of [
+            [gl.VERTEX_SHADER, vertex],
+            [gl.FRAGMENT_SHADER, fragment],
+        ] as const) {
             const shader = gl.createShader(type);
             if (!shader) throw new Error("no shader");
             gl.shaderSource(shader, source);
@@ -81,12 +94,25 @@ export class Renderer {
         this.volume = volume;
         this.textures = [
             this.texture(0, volume.size, gl.RG8, gl.RG, volume.data, gl.LINEAR),
-            this.texture(1, volume.blocks, gl.R8, gl.RED, volume.largest.map((one) => (one ? 255 : 0)), gl.NEAREST),
+            this.texture(
+                1,
+                volume.blocks,
+                gl.R8,
+                gl.RED,
+                volume.largest.map((one) => (one ? 255 : 0)),
+                gl.NEAREST,
+            ),
         ];
     }
 
-    private texture(unit: number, [nx, ny, nz]: Triple, inside: number, format: number, data: Uint8Array,
-                    filter: number): WebGLTexture {
+    private texture(
+        unit: number,
+        [nx, ny, nz]: Triple,
+        inside: number,
+        format: number,
+        data: Uint8Array,
+        filter: number,
+    ): WebGLTexture {
         const gl = this.gl;
         const texture = gl.createTexture();
         gl.activeTexture(gl.TEXTURE0 + unit);
@@ -121,9 +147,17 @@ export class Renderer {
     }
 
     /** Draws some rows of a picture that is not shown yet. */
-    draw_rows(camera: PerspectiveCamera, scene: Scene, width: number, height: number, first: number, rows: number): void {
+    draw_rows(
+        camera: PerspectiveCamera,
+        scene: Scene,
+        width: number,
+        height: number,
+        first: number,
+        rows: number,
+    ): void {
         const gl = this.gl;
-        if (!this.still || this.still.width !== width || this.still.height !== height) this.make_still(width, height);
+        if (!this.still || this.still.width !== width || this.still.height !== height)
+            this.make_still(width, height);
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.still!.buffer);
         gl.viewport(0, 0, width, height);
         gl.enable(gl.SCISSOR_TEST);
@@ -202,6 +236,9 @@ export class Renderer {
         gl.uniform1f(this.place("layer_z"), scene.layer_z);
         gl.uniform1f(this.place("layer_half"), scene.layer_height / 2);
         const width = Math.max(hi[0] - lo[0], hi[1] - lo[1]);
-        gl.uniform1f(this.place("grid_pitch"), width > 400 ? 100 : width > 4 ? 10 ** Math.floor(Math.log10(width / 2)) : 1);
+        gl.uniform1f(
+            this.place("grid_pitch"),
+            width > 400 ? 100 : width > 4 ? 10 ** Math.floor(Math.log10(width / 2)) : 1,
+        );
     }
 }

@@ -12,8 +12,12 @@ const followers = new Set<() => void>();
 export function add_follower(follow: () => void): () => void {
     followers.add(follow);
     if (stage.value) {
-        stage.value.after_frame = () => { for (const one of followers) one(); };
+        stage.value.after_frame = () => {
+            for (const one of followers) one();
+        };
         stage.value.invalidate();
     }
-    return () => { followers.delete(follow); };
+    return () => {
+        followers.delete(follow);
+    };
 }

@@ -30,7 +30,10 @@ export class Stage {
     private readonly watcher: ResizeObserver;
     private size = { width: 1, height: 1 };
 
-    constructor(private readonly canvas: HTMLCanvasElement, private readonly frame: HTMLElement) {
+    constructor(
+        private readonly canvas: HTMLCanvasElement,
+        private readonly frame: HTMLElement,
+    ) {
         this.renderer = Renderer.make(canvas);
         this.orbit = new Orbit(frame);
         this.orbit.controls.addEventListener("change", () => this.invalidate());
@@ -74,9 +77,7 @@ export class Stage {
 
     /** Something has changed: draws quickly, and finely when nothing changes for a while. */
     invalidate(): void {
-        this.row = 0;
         clearTimeout(this.settle_timer);
-        this.settle_timer = window.setTimeout(() => this.ask(() => this.draw_rows()), settle);
         this.ask((now) => this.draw(now));
     }
 
@@ -93,7 +94,10 @@ export class Stage {
     }
 
     private pixels(scale: number): [number, number] {
-        return [Math.max(1, Math.round(this.size.width * scale)), Math.max(1, Math.round(this.size.height * scale))];
+        return [
+            Math.max(1, Math.round(this.size.width * scale)),
+            Math.max(1, Math.round(this.size.height * scale)),
+        ];
     }
 
     private draw(now: number): void {
@@ -105,9 +109,15 @@ export class Stage {
                 this.canvas.width = width;
                 this.canvas.height = height;
             }
-            this.renderer.draw(this.orbit.camera, { ...this.scene, fine: false, stride: this.pace.scale < 0.6 ? 2.2 : 1.4 });
+            this.renderer.draw(this.orbit.camera, {
+                ...this.scene,
+                fine: false,
+                stride: this.pace.scale < 0.6 ? 2.2 : 1.4,
+            });
         }
         this.after_frame();
+        this.row = 0;
+        this.settle_timer = window.setTimeout(() => this.ask(() => this.draw_rows()), settle);
     }
 
     /** Draws the fine picture a few rows a frame, so that a movement can begin at any time. */
@@ -116,7 +126,14 @@ export class Stage {
         const [width, height] = this.pixels(Math.min(2, devicePixelRatio));
         const rows = Math.min(height - this.row, this.rows);
         const begun = performance.now();
-        this.renderer.draw_rows(this.orbit.camera, { ...this.scene, fine: true, stride: fine_stride }, width, height, this.row, rows);
+        this.renderer.draw_rows(
+            this.orbit.camera,
+            { ...this.scene, fine: true, stride: fine_stride },
+            width,
+            height,
+            this.row,
+            rows,
+        );
         this.row += rows;
         this.ask(() => {
             const taken = performance.now() - begun;
@@ -130,14 +147,15 @@ export class Stage {
     on_screen(p: Triple): [number, number] | null {
         const at = new Vector3(...p).project(this.orbit.camera);
         if (at.z > 1) return null;
-        return [(at.x + 1) / 2 * this.size.width, (1 - at.y) / 2 * this.size.height];
+        return [((at.x + 1) / 2) * this.size.width, ((1 - at.y) / 2) * this.size.height];
     }
 
     /** The place of the part at a pixel of the view; null when there is none. */
     place_at(x: number, y: number): Triple | null {
         if (!this.volume || !this.scene) return null;
         this.orbit.camera.updateMatrixWorld();
-        const across = x / this.size.width * 2 - 1, up = 1 - y / this.size.height * 2;
+        const across = (x / this.size.width) * 2 - 1,
+            up = 1 - (y / this.size.height) * 2;
         return pick(this.volume, this.orbit.camera, across, up, this.scene.cut);
     }
 }

@@ -25,12 +25,13 @@ const idle = 500;
 function watch_volume(on: Stage): () => void {
     const latest = new Latest();
     let timer = 0;
-    const load = (made: Job, voxels: number) => latest.run(async (signal) => {
-        const volume = read_volume(await get_volume(made, voxels, signal));
-        if (job.value?.job !== made.job && voxels === fine) return;
-        on.set_volume(volume);
-        shown_voxels.value = voxels;
-    });
+    const load = (made: Job, voxels: number) =>
+        latest.run(async (signal) => {
+            const volume = read_volume(await get_volume(made, voxels, signal));
+            if (job.value?.job !== made.job && voxels === fine) return;
+            on.set_volume(volume);
+            shown_voxels.value = on.voxels;
+        });
     const stop = effect(() => {
         const made = job.value;
         clearTimeout(timer);
@@ -48,24 +49,30 @@ function watch_volume(on: Stage): () => void {
 function watch_scene(on: Stage): () => void {
     return effect(() => {
         const made = job.value;
-        void dark.value;  // colours follow the theme
+        void dark.value; // colours follow the theme
         if (!made) return;
         const k = layer.value;
-        on.set_scene({ cut: cut.value, layer_z: plane_of(made, k), layer_height: slab_of(made, k).height,
-            colours: read_colours() });
+        on.set_scene({
+            cut: cut.value,
+            layer_z: plane_of(made, k),
+            layer_height: slab_of(made, k).height,
+            colours: read_colours(),
+        });
     });
 }
 
 /** A click, as opposed to a drag, goes to the layer of the place that was hit. */
 function watch_clicks(on: Stage, frame: HTMLElement): () => void {
     let down: [number, number] | null = null;
-    const press = (event: PointerEvent) => { down = event.button === 0 ? [event.clientX, event.clientY] : null; };
+    const press = (event: PointerEvent) => {
+        down = event.button === 0 ? [event.clientX, event.clientY] : null;
+    };
     const release = (event: PointerEvent) => {
         const made = job.value;
         if (!down || !made || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
         const box = frame.getBoundingClientRect();
         const place = on.place_at(event.clientX - box.left, event.clientY - box.top);
-        if (place) layer.value = layer_at(made, place[2] - made.bounds.lo[2]);
+        if (place) layer.value = layer_at(made, place[2] - made.z0);
     };
     frame.addEventListener("pointerdown", press);
     frame.addEventListener("pointerup", release);
@@ -101,7 +108,9 @@ export function View() {
         const on = new Stage(canvas.current!, frame.current!);
         stage.value = on;
         webgl.value = on.has_webgl;
-        const stops = on.has_webgl ? [watch_volume(on), watch_scene(on), watch_clicks(on, frame.current!)] : [];
+        const stops = on.has_webgl
+            ? [watch_volume(on), watch_scene(on), watch_clicks(on, frame.current!)]
+            : [];
         return () => {
             for (const stop of stops) stop();
             on.dispose();
@@ -110,15 +119,24 @@ export function View() {
     }, []);
     return (
         <section class="view" aria-label="Part">
-            <div class="view-frame" ref={frame} tabIndex={0} role="application"
+            <div
+                class="view-frame"
+                ref={frame}
+                tabIndex={0}
+                role="application"
                 aria-label="3D view. Arrow keys turn the part, plus and minus zoom, Home shows all of it."
-                onKeyDown={(event) => stage.value && on_key(stage.value, event)}>
+                onKeyDown={(event) => stage.value && on_key(stage.value, event)}
+            >
                 <canvas ref={canvas} aria-hidden="true" />
                 {!webgl.value && <Fallback />}
             </div>
             {webgl.value && <FaultMarkers />}
             {webgl.value && <Triad />}
-            {building.value && <div class="view-busy" role="status">computing…</div>}
+            {building.value && (
+                <div class="view-busy" role="status">
+                    computing…
+                </div>
+            )}
             <CutBar />
         </section>
     );

@@ -17,8 +17,11 @@ const block_edge = 6;
 
 export function read_volume(bytes: ArrayBuffer): Volume {
     const length = new DataView(bytes).getUint32(0, true);
-    const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length))) as
-        { size: Triple; lo: Triple; hi: Triple };
+    const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length))) as {
+        size: Triple;
+        lo: Triple;
+        hi: Triple;
+    };
     const data = new Uint8Array(bytes, 4 + length);
     const [nx, ny, nz] = head.size;
     if (data.length < nx * ny * nz * 2) throw new Error("The volume is shorter than its head says.");
@@ -29,17 +32,20 @@ export function read_volume(bytes: ArrayBuffer): Volume {
 /** The largest coverage in each block and in the voxels beside it, which interpolation reaches. */
 function largest_of(data: Uint8Array, [nx, ny, nz]: Triple, [bx, by, bz]: Triple): Uint8Array {
     const largest = new Uint8Array(bx * by * bz);
-    const reached = (n: number, count: number): [number, number][] => Array.from({ length: n }, (_, i) => {
-        const first = Math.max(0, Math.floor((i - 1) / block_edge));
-        return [first, Math.min(count - 1, Math.floor((i + 1) / block_edge))];
-    });
-    const xs = reached(nx, bx), ys = reached(ny, by), zs = reached(nz, bz);
+    const reached = (n: number, count: number): [number, number][] =>
+        Array.from({ length: n }, (_, i) => {
+            const first = Math.max(0, Math.floor((i - 1) / block_edge));
+            return [first, Math.min(count - 1, Math.floor((i + 1) / block_edge))];
+        });
+    const xs = reached(nx, bx),
+        ys = reached(ny, by),
+        zs = reached(nz, bz);
     let at = 0;
     for (let z = 0; z < nz; ++z) {
         for (let y = 0; y < ny; ++y) {
             for (let x = 0; x < nx; ++x, at += 2) {
                 const value = Math.max(data[at]!, data[at + 1]!);
-                if (value < 100) continue;  // too little for a surface at 0.5: the block stays empty
+                if (value < 100) continue; // too little for a surface at 0.5: the block stays empty
                 for (let k = zs[z]![0]; k <= zs[z]![1]; ++k) {
                     for (let j = ys[y]![0]; j <= ys[y]![1]; ++j) {
                         for (let i = xs[x]![0]; i <= xs[x]![1]; ++i) {
@@ -56,7 +62,9 @@ function largest_of(data: Uint8Array, [nx, ny, nz]: Triple, [bx, by, bz]: Triple
 
 /** Coverage of part and supports at a point, of the nearest voxel, 0 to 255. */
 export function coverage_at(volume: Volume, p: Triple): number {
-    const at = p.map((one, k) => Math.floor((one - volume.lo[k]!) / (volume.hi[k]! - volume.lo[k]!) * volume.size[k]!));
+    const at = p.map((one, k) =>
+        Math.floor(((one - volume.lo[k]!) / (volume.hi[k]! - volume.lo[k]!)) * volume.size[k]!),
+    );
     const [x, y, z] = at as Triple;
     const [nx, ny, nz] = volume.size;
     if (x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz) return 0;
