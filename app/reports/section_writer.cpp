@@ -8,8 +8,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/error.h"
 #include "app/reports/grey_page.h"
+#include "engine/base/error.h"
 #include "engine/field/slice_context.h"
 #include "engine/io/image_file.h"
 
