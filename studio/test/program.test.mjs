@@ -104,6 +104,8 @@ const greys_of = (base64) =>
         return { width: bitmap.width, greys: [...data.filter((_, i) => i % 4 === 0)] };
     }, base64);
 
+const differing = (a, b) => a.reduce((count, grey, i) => count + (grey === b[i] ? 0 : 1), 0);
+
 async function mask_of_page() {
     const { job, layer } = await state();
     const reply = await fetch(`http://127.0.0.1:${port}/api/jobs/${job}/layers/${layer}/mask.png?width=400&token=${token}`);
@@ -139,14 +141,14 @@ test("another cell size shows another layer, pixel by pixel that of the command"
     const { text, layer } = await state();
     assert.match(text, /^cell = 2\.5 +# of the foam$/m);
     const second = await mask_of_page();
-    assert.notDeepEqual(second.greys, first.greys);
+    assert.ok(differing(second.greys, first.greys) > 100);
     assert.notDeepEqual(await page.locator(".layer-room").screenshot(), picture);
     writeFileSync(join(folder, "now.toml"), text);
     const z = ((layer + 0.5) * 0.1).toFixed(6);
     execFileSync(lamella, ["section", join(folder, "now.toml"), "--z", z, "-o", join(folder, "now.png")]);
     const section = await greys_of(readFileSync(join(folder, "now.png")).toString("base64"));
     assert.equal(section.width, 400);
-    assert.deepEqual(section.greys, second.greys);
+    assert.equal(differing(section.greys, second.greys), 0);
 });
 
 test("a slider's release shows a new layer soon", { skip }, async (context) => {
