@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import { edit_recipe, save_recipe } from "../server/api";
 import { Failure } from "../server/http";
 import type { Change } from "../server/types";
+import { focus_soon } from "../shell/focus";
 import { remember, step_back, step_forward } from "./history";
 import { refresh } from "./jobs";
 import { confirm_done, report } from "./notices";
@@ -105,7 +106,7 @@ export const redo = () => go_to(step_forward(text.value));
 export async function save(name: string | null = path.value): Promise<void> {
     if (!name) {
         tab.value = "make";
-        requestAnimationFrame(() => document.getElementById("recipe-path")?.focus());
+        focus_soon("recipe-path");
         return;
     }
     const kept = text.value;
