@@ -1,13 +1,15 @@
 // Colours of the roles of toolpaths, and of contours.
 
 const known: [RegExp, string][] = [
-    [/outer|external/i, "#e8833a"],
-    [/inner|perimeter|wall/i, "#f2c14e"],
-    [/support.*interface|interface/i, "#8ecae6"],
+    [/interface/i, "#8ecae6"],
     [/support/i, "#598fcc"],
-    [/solid|top|bottom|skin/i, "#c05299"],
+    [/overhang/i, "#d6604d"],
+    [/outer|external/i, "#e8833a"],
+    [/perimeter|wall/i, "#f2c14e"],
+    [/bridge/i, "#9184e0"],
+    [/gap/i, "#a9c95f"],
+    [/solid|top|bottom|skin/i, "#c9659f"],
     [/infill|fill|foam/i, "#4fae7c"],
-    [/bridge/i, "#7d6fd0"],
     [/skirt|brim|prime|purge|shield/i, "#9a9a9a"],
     [/cut/i, "#e05252"],
 ];

@@ -117,7 +117,7 @@ function StartOutput() {
 
 function SaveRecipe() {
     const name = useSignal<string | null>(null);
-    const shown = name.value ?? path.value ?? "part.toml";
+    const shown = name.value ?? path.value ?? `${job.value?.name ?? "part"}.toml`;
     return (
         <form
             class="save-row"

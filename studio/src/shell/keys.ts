@@ -1,6 +1,7 @@
 // Keys of the whole page.
 import { clamp_layer } from "../state/heights";
 import { redo, save, undo } from "../state/recipe";
+import { focus_soon } from "./focus";
 import { job, layer, left_mode, type Tab, tab } from "../state/store";
 
 const tab_keys: Record<string, Tab> = { Digit1: "design", Digit2: "check", Digit3: "make" };
@@ -54,7 +55,7 @@ export function listen_to_keys(): void {
             event.preventDefault();
             tab.value = "design";
             left_mode.value = "form";
-            requestAnimationFrame(() => document.getElementById("search-keys")?.focus());
+            focus_soon("search-keys");
         }
     });
 }

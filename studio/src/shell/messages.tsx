@@ -1,5 +1,6 @@
 // The banner of an absent server, and the one message of what went wrong.
 import { away } from "../server/events";
+import { sending } from "../start/take_model";
 import { notice } from "../state/notices";
 
 export function Messages() {
@@ -9,6 +10,11 @@ export function Messages() {
             {away.value && (
                 <div class="banner" role="alert">
                     The server is away. The page goes on as soon as it is back.
+                </div>
+            )}
+            {sending.value && (
+                <div class="notice done" role="status">
+                    Sending {sending.value}…
                 </div>
             )}
             {shown && (

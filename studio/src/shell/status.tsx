@@ -14,6 +14,7 @@ import {
 
 function Numbers() {
     const made = job.value;
+    if (starting.value) return null;
     if (!made) return <span>No part yet.</span>;
     const { lo, hi } = made.bounds;
     const size = lo.map((one, k) => (hi[k]! - one).toFixed(1)).join(" × ");

@@ -3,10 +3,11 @@ import { signal } from "@preact/signals";
 import { edit_recipe, save_recipe } from "../server/api";
 import { Failure } from "../server/http";
 import type { Change } from "../server/types";
+import { focus_soon } from "../shell/focus";
 import { remember, step_back, step_forward } from "./history";
 import { refresh } from "./jobs";
 import { confirm_done, report } from "./notices";
-import { edit_mistakes, opened, path, saved_text, starting, text } from "./store";
+import { edit_mistakes, opened, path, saved_text, starting, tab, text } from "./store";
 
 /** Values that the form shows before the server has answered, by place_of. */
 export const pending = signal<Record<string, string | null>>({});
@@ -27,6 +28,8 @@ export function set_text(next: string, what: string): void {
 export function open_text(next: string): void {
     starting.value = false;
     opened.value = true;
+    path.value = null;  // the file of the recipe before is not written over
+    saved_text.value = "";
     edit_mistakes.value = [];
     pending.value = {};
     set_text(next, `open ${Date.now()}`);
@@ -99,7 +102,13 @@ function go_to(next: string | null): void {
 export const undo = () => go_to(step_back(text.value));
 export const redo = () => go_to(step_forward(text.value));
 
+/** Saves the recipe to its file; without one, asks for a name in Make. */
 export async function save(name: string | null = path.value): Promise<void> {
+    if (!name) {
+        tab.value = "make";
+        focus_soon("recipe-path");
+        return;
+    }
     const kept = text.value;
     try {
         const answer = await save_recipe(kept, name);

@@ -95,6 +95,7 @@ function mount(room: HTMLElement): () => void {
                     "aria-label": "Recipe",
                     spellcheck: "false",
                     autocapitalize: "off",
+                    tabindex: "0",
                 }),
                 EditorView.updateListener.of((update) => {
                     if (!update.docChanged || update.transactions.some((one) => one.isUserEvent("studio")))

@@ -1,5 +1,5 @@
 #version 300 es
-// Marches a ray through the coverage of part (red) and supports (green), to the surface of coverage 0.5.
+// Marches a ray through the coverage of part (red) and supports (green), to the surface of one coverage.
 precision highp float;
 precision highp sampler3D;
 
@@ -12,6 +12,7 @@ uniform vec3 clip_lo, clip_hi;  // what the cut leaves of it
 uniform int cut_axis;      // -1: no cut
 uniform float cut_at;
 uniform vec3 block;        // edges of a block, mm
+uniform float surface;     // coverage at the surface
 uniform float voxel;       // the smallest edge of a voxel, mm
 uniform float stride;      // length of a step, in voxels
 uniform bool fine;         // false while the view moves: fewer samples
@@ -25,8 +26,9 @@ out vec4 colour;
 vec2 coverage(vec3 p) { return texture(volume, (p - lo) / (hi - lo)).rg; }
 float value(vec3 p) { vec2 c = coverage(p); return max(c.r, c.g); }
 
-float around(vec3 p) {  // as value, but nothing is outside the box
+float around(vec3 p) {  // as value, but nothing is outside the box, except below the bed
     vec3 q = (p - lo) / (hi - lo);
+    q.z = max(q.z, 0.0);
     vec2 c = texture(volume, q).rg;
     return all(equal(q, clamp(q, 0.0, 1.0))) ? max(c.r, c.g) : 0.0;
 }
@@ -91,12 +93,12 @@ void main() {
     for (int i = 0; i < 700; ++i) {
         vec3 p = eye + safe * (t + tiny);
         vec3 cell = floor((p - lo) / block);
-        if (texelFetch(blocks, ivec3(cell), 0).r < 0.5) {
+        if (texelFetch(blocks, ivec3(cell), 0).r < surface) {
             vec3 side = (lo + (cell + step(0.0, safe)) * block - eye) * inverse;
             t = max(t, min(min(side.x, side.y), side.z)) + tiny;
             before = t;
         } else {
-            if (value(p) >= 0.5) { hit = true; break; }
+            if (value(p) >= surface) { hit = true; break; }
             before = t;
             t += step_length;
         }
@@ -110,7 +112,7 @@ void main() {
         int halvings = fine ? 5 : 2;
         for (int i = 0; i < halvings; ++i) {
             float half_way = 0.5 * (outside + inside);
-            if (value(eye + safe * half_way) >= 0.5) inside = half_way; else outside = half_way;
+            if (value(eye + safe * half_way) >= surface) inside = half_way; else outside = half_way;
         }
         t = inside;
     }

@@ -29,7 +29,7 @@ export function pick(
     const step = 0.5 * Math.min(...volume.size.map((n, k) => (volume.hi[k]! - volume.lo[k]!) / n));
     for (let t = begin + 1e-6; t < end; t += step) {
         const p = from.map((one, k) => one + along[k]! * t) as Triple;
-        if (coverage_at(volume, p) >= 128) return p;
+        if (coverage_at(volume, p) >= volume.surface) return p;
     }
     return null;
 }

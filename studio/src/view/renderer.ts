@@ -229,6 +229,7 @@ export class Renderer {
         this.triple("clip_hi", rest.hi);
         this.triple("block", voxels.map((edge) => edge * block) as Triple);
         gl.uniform1f(this.place("voxel"), Math.min(...voxels));
+        gl.uniform1f(this.place("surface"), volume.surface / 255);
         gl.uniform1f(this.place("stride"), scene.stride);
         gl.uniform1i(this.place("fine"), scene.fine ? 1 : 0);
         gl.uniform1i(this.place("cut_axis"), scene.cut.axis);

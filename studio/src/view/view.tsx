@@ -5,7 +5,7 @@ import { get_volume } from "../server/api";
 import { Latest } from "../server/latest";
 import type { Job } from "../server/types";
 import { layer_at, plane_of, slab_of } from "../state/heights";
-import { building, job, layer } from "../state/store";
+import { building, job, layer, mistakes } from "../state/store";
 import { dark } from "../shell/theme";
 import { read_colours } from "./colours";
 import { cut } from "./cut";
@@ -20,7 +20,7 @@ import { read_volume } from "./volume";
 /** Voxels along the longest side: first, and when nothing has changed for a while. */
 const coarse = 64;
 const fine = 160;
-const idle = 500;
+const idle = 400;
 
 function watch_volume(on: Stage): () => void {
     const latest = new Latest();
@@ -132,10 +132,9 @@ export function View() {
             </div>
             {webgl.value && <FaultMarkers />}
             {webgl.value && <Triad />}
-            {building.value && (
-                <div class="view-busy" role="status">
-                    computing…
-                </div>
+            {building.value && <div class="view-chip late">computing…</div>}
+            {!building.value && mistakes.value.length > 0 && job.value && (
+                <div class="view-chip">the recipe before its {mistakes.value.length > 1 ? "mistakes" : "mistake"}</div>
             )}
             <CutBar />
         </section>
