@@ -42,7 +42,8 @@ export function NumberControl(props: ControlProps) {
     const typed = use_typed(value ?? "", send_text(props));
     const range = useRef<Range | null>(null);
     const number = Number(value ?? plain_default(setting) ?? NaN);
-    if (!range.current || !inside(range.current, number)) range.current = range_of(setting, number);
+    const allowed = number >= (setting.lo ?? -Infinity) && number <= (setting.hi ?? Infinity);
+    if (!range.current || (allowed && !inside(range.current, number))) range.current = range_of(setting, number);
     const on = range.current;
     return (
         <div class="number">

@@ -28,9 +28,12 @@ export function pixel_of(made: Job): number {
     return display && Math.abs(display.pixel_x / display.pixel_y - 1) < 1e-3 ? display.pixel_x : 0;
 }
 
-/** A point where four pixels of the machine meet, mm; the corner of the bounds if the server names none. */
-export function pixel_corner(made: Job): [number, number] {
-    return made.display?.corner ?? [made.bounds.lo[0], made.bounds.lo[1]];
+/** A point where four pixels of the machine meet, mm: the middle of the job is that of the display. */
+export function pixel_corner({ bounds, display }: Job): [number, number] {
+    const corner = (axis: 0 | 1, count: number, pixel: number) =>
+        (bounds.lo[axis] + bounds.hi[axis]) / 2 - (count / 2) * pixel;
+    if (!display) return [bounds.lo[0], bounds.lo[1]];
+    return [corner(0, display.width, display.pixel_x), corner(1, display.height, display.pixel_y)];
 }
 
 function wish_of(made: Job, shown: Frame, dense: number): Wish {

@@ -24,6 +24,13 @@ export function mode_of(made: Job): LayerMode {
     return wanted === "paths" && made.process !== "filament" ? "contours" : wanted;
 }
 
+/** Shows another picture. The one before gives its memory back: the drawing no longer uses it. */
+function show_picture(next: Picture | null): void {
+    const before = picture.peek();
+    picture.value = next;
+    before?.bitmap.close();
+}
+
 async function load_lines(made: Job, k: number, mode: LayerMode, signal: AbortSignal): Promise<Lines> {
     if (mode === "paths") return { job: made.job, layer: k, paths: await get_paths(made, k, signal) };
     const [part, supports] = await Promise.all([
@@ -43,13 +50,13 @@ function watch_layer(): () => void {
         const shown = current(made);
         if (mode === "mask") {
             latest.run(async (signal) => {
-                picture.value = await load_mask(made, k, shown, signal);
+                show_picture(await load_mask(made, k, shown, signal));
                 lines.value = null;
             });
         } else if (lines.peek()?.job !== made.job || lines.peek()?.layer !== k || !lines.peek()?.[mode]) {
             latest.run(async (signal) => {
                 lines.value = await load_lines(made, k, mode, signal);
-                picture.value = null;
+                show_picture(null);
             });
         }
     });

@@ -109,7 +109,6 @@ export interface Job {
         height: number;
         pixel_x: number;
         pixel_y: number;
-        corner?: [number, number];
     } | null;
 }
 
