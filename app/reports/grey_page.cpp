@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/contours/coverage.h"
+#include "engine/field/slice_context.h"
 
 namespace lamella {
 

@@ -149,7 +149,7 @@ struct HttpServer::State {
         return false;
     }
 
-    void send(HttpReply reply, const HttpRequest& request, httplib::Response& response) {
+    void send(const HttpReply& reply, const HttpRequest& request, httplib::Response& response) {
         response.status = reply.status;
         if (!reply.file_name.empty())
             response.set_header("Content-Disposition",
@@ -165,7 +165,7 @@ struct HttpServer::State {
             }
         }
         if (!reply.stream) {
-            response.set_content(std::move(reply.body), reply.content_type.c_str());
+            response.set_content(reply.body, reply.content_type.c_str());
             return;
         }
         response.set_chunked_content_provider(
@@ -193,7 +193,8 @@ struct HttpServer::State {
                 if (name == "token") continue;
                 request.query[name] = value;
             }
-            for (const auto& [name, value] : request.query) request.target += "&" + name + "=" + value;
+            for (const auto& [name, value] : request.query)
+                request.target.append("&").append(name).append("=").append(value);
             send(route.handler(request), request, response);
             return;
         }

@@ -71,10 +71,11 @@ constexpr unsigned shares = 16;  // of part and of supports, where both are in a
 
 /// Returns the colours of pixels: by their coverage, or with supports by 16 shares of each.
 std::vector<std::uint8_t> palette_of(bool with_supports) {
+    const auto share_of = [](unsigned level) { return level / (shares - 1.0); };
     std::vector<std::uint8_t> palette;
     for (unsigned i = 0; i < 256; ++i) {
         const Color color =
-            with_supports ? mixed((i / shares) / 15.0, (i % shares) / 15.0) : mixed(i / 255.0, 0);
+            with_supports ? mixed(share_of(i / shares), share_of(i % shares)) : mixed(i / 255.0, 0);
         for (const double channel : color) palette.push_back(static_cast<std::uint8_t>(std::lround(channel)));
     }
     return palette;

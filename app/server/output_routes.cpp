@@ -1,5 +1,6 @@
 // Outputs: files that are sliced in the background.
 #include <charconv>
+#include <fstream>
 
 #include "app/server/server_state.h"
 #include "engine/base/whole_file.h"

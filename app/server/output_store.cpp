@@ -60,7 +60,7 @@ OutputStore::~OutputStore() {
 fs::path OutputStore::place_of(const ServedJob& job, const std::string& file, int number) const {
     const PrinterProfile& printer = job.recipe.printer;
     if (file.empty()) return temporary_ / fmt::format("{}", number) / default_output(printer, job.job().name);
-    const fs::path path = folder_.file(file);
+    fs::path path = folder_.file(file);
     const std::vector<std::string> endings = output_endings(find_backend(printer.backend));
     const bool fits =
         std::ranges::any_of(endings, [&](const std::string& ending) { return file.ends_with(ending); });

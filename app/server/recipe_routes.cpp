@@ -81,14 +81,19 @@ HttpReply read(const ServerState& state) {
         {"text", whole_file(state.folder.file(name).string(), "a recipe")}, {"path", name}, {"saved", true}};
 }
 
-HttpReply save(const ServerState& state, const HttpRequest& request) {
+HttpReply save(ServerState& state, const HttpRequest& request) {
     const Json json = request.json();
     const std::string name = json.contains("path") && !json["path"].is_null()
                                  ? member<std::string>(json, "path")
                                  : state.options.recipe;
     if (!name.ends_with(".toml")) throw HttpError(400, "path: accepted: the name of a .toml file");
     const std::string text = member<std::string>(json, "text");
-    write_complete_file(state.folder.file(name), [&](std::ostream& out) { out << text; });
+    const std::filesystem::path path = state.folder.file(name);
+    const std::lock_guard lock(state.own_recipes_mutex);
+    if (std::filesystem::exists(path) && !state.own_recipes.contains(path))
+        throw HttpError(400, name + ": is another recipe; accepted: a name that no file has");
+    write_complete_file(path, [&](std::ostream& out) { out << text; });
+    state.own_recipes.insert(path);
     return Json{{"path", name}};
 }
 

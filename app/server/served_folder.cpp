@@ -55,7 +55,7 @@ ServedFolder::ServedFolder(const fs::path& folder) {
 fs::path ServedFolder::file(const std::string& name) const {
     const fs::path given(name);
     std::error_code error;
-    const fs::path path = fs::weakly_canonical(folder_ / given, error);
+    fs::path path = fs::weakly_canonical(folder_ / given, error);
     if (name.empty() || name.find('\0') != std::string::npos || error || !lies_within(path, folder_))
         throw HttpError(400,
                         fmt::format("{}: lies outside the served folder; accepted: a path within it", name));
@@ -78,7 +78,7 @@ std::string ServedFolder::keep(const std::string& name, std::string_view bytes) 
     }
     const fs::path given(name);
     for (int number = 1; number < 1000; ++number) {
-        const std::string tried =
+        std::string tried =
             number == 1 ? name
                         : fmt::format("{}-{}{}", given.stem().string(), number, given.extension().string());
         const fs::path path = file(tried);

@@ -26,6 +26,7 @@ ServerState::ServerState(const ServerOptions& given)
       jobs(folder, events, given.threads, given.jobs),
       outputs(folder, events, given.threads),
       turns(most_computing) {
+    if (!options.recipe.empty()) own_recipes.insert(folder.file(options.recipe));
     add_setting_routes(*this);
     add_recipe_routes(*this);
     add_job_routes(*this);

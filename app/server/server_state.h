@@ -1,9 +1,10 @@
 // ServerState: what the routes of a server share.
 #pragma once
 
-#include <atomic>
-#include <optional>
+#include <filesystem>
+#include <mutex>
 #include <semaphore>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -46,6 +47,8 @@ struct ServerState {
     JobStore jobs;
     OutputStore outputs;
     ComputeTurn::Turns turns;
+    std::mutex own_recipes_mutex;
+    std::set<std::filesystem::path> own_recipes;  ///< which may be written again
 };
 
 /// Add the routes of a part of the interface (docs/embedding/http.md).

@@ -105,7 +105,7 @@ PngWriter::PngWriter(const PngHeader& header, std::vector<std::byte>& out) : hea
     if (header.bits != 8 && (header.colors != PngColors::grey || (header.bits != 1 && header.bits != 16))) {
         throw InputError(std::to_string(header.bits) + " bits a pixel: must be 8, of grey images 1, 8 or 16");
     }
-    constexpr std::size_t palette_bytes = 3 * 256;
+    constexpr std::size_t palette_bytes = 768;  // of 256 colours
     if (!header.palette.empty() &&
         (header.palette.size() != palette_bytes || header.bits != 8 || header.colors != PngColors::grey))
         throw InputError("a palette has 256 colours, for an image with one sample of 8 bits a pixel");

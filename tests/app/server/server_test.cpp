@@ -381,6 +381,14 @@ TEST_CASE("the form's values, edits and saving go together", "[server]") {
     server.json("PUT", "/api/recipe", edited);
     CHECK(contents(server.folder() / "part.toml") == edited["text"].get<std::string>());
     server.json("PUT", "/api/recipe", {{"text", "x"}, {"path", "a.stl"}}, 400);
+    // Others' files are not replaced, its own may be.
+    write(server.folder() / "other.toml", "# theirs");
+    server.json("PUT", "/api/recipe", {{"text", "x"}, {"path", "other.toml"}}, 400);
+    CHECK(contents(server.folder() / "other.toml") == "# theirs");
+    for (const char* text : {"# one", "# two"}) {
+        server.json("PUT", "/api/recipe", {{"text", text}, {"path", "new.toml"}});
+        CHECK(contents(server.folder() / "new.toml") == text);
+    }
     const Json wrong = server.json(
         "POST", "/api/edit",
         {{"text", recipe["text"]}, {"changes", {{{"section", "part"}, {"key", "radius"}, {"value", "x"}}}}},
