@@ -20,7 +20,7 @@ void write(const std::string& path, const Picture& picture) {
         write_image(path, {picture.width, picture.height, 3, picture.rgb});
         return;
     }
-    const std::string file = png_file(picture);
+    const std::string file = png_file(picture, 5);
     std::ofstream out(path, std::ios::binary);
     out.write(file.data(), static_cast<std::streamsize>(file.size()));
     out.close();

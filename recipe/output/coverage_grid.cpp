@@ -170,7 +170,7 @@ void CoverageGrid::store_layer(const LayerWork& work, int z) {
             out[x] = static_cast<std::uint8_t>(work.sums[from + x] / planes_per_cell);
         std::uint8_t* const bits = &thin_[row_of_bits(y, z)];
         for (std::size_t x = 0; x < nx; ++x) {
-            if (out[x] < surface_depth && work.deepest[from + x] > surface_depth) set_bit(bits, x);
+            if (out[x] <= surface_depth && work.deepest[from + x] > surface_depth) set_bit(bits, x);
         }
     }
 }
@@ -184,7 +184,7 @@ void CoverageGrid::restore_thin(int z) {
         if (layer < 0 || layer >= level.nz) return true;
         // Another thread may be restoring that cell: its bit tells.
         if (has_bit(&thin_[row_of_bits(y, layer)], x)) return true;
-        return level.density[level.at(static_cast<int>(x), y, layer)] < surface_depth;
+        return level.density[level.at(static_cast<int>(x), y, layer)] <= surface_depth;
     };
     for (int y = 0; y < level.ny; ++y) {
         const std::uint8_t* const bits = &thin_[row_of_bits(y, z)];
@@ -276,7 +276,7 @@ bool CoverageGrid::of_second(dvec3 p) const {
         if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= level.nx || cell.y >= level.ny ||
             cell.z >= level.nz)
             continue;
-        if (level.density[level.at(cell.x, cell.y, cell.z)] < surface_depth) continue;
+        if (level.density[level.at(cell.x, cell.y, cell.z)] <= surface_depth) continue;
         const dvec3 near = 1.0 - glm::abs(q - dvec3(cell));
         const bool of_part = has_bit(&part_[row_of_bits(cell.y, cell.z)], static_cast<std::size_t>(cell.x));
         const double weight = near.x * near.y * near.z;

@@ -71,7 +71,7 @@ struct Spline {
 
 DensityPyramid::Level::Level(glm::ivec3 size, float cells)
     : nx(size.x), ny(size.y), nz(size.z), per_cell(cells) {
-    density.assign(plane() * (static_cast<std::size_t>(nz) + 2 * border), 0);
+    density.assign(plane() * (static_cast<std::size_t>(nz) + std::size_t{2} * border), 0);
 }
 
 DensityPyramid::DensityPyramid(glm::ivec3 cells) { levels_.emplace_back(cells, 1.0F); }

@@ -24,17 +24,19 @@ class DensityPyramid {
     /// Shares with a border of empty cells, so that every position has the neighbours that interpolation
     /// needs.
     struct Level {
-        static constexpr int border = 2;
+        static constexpr std::uint8_t border = 2;
         int nx, ny, nz;
         float per_cell;                     ///< blocks of this level per cell
         std::vector<std::uint8_t> density;  ///< 255 full; 0 only if all finer cells are empty
 
         Level(glm::ivec3 size, float cells);
-        std::size_t row() const { return static_cast<std::size_t>(nx) + 2 * border; }
-        std::size_t plane() const { return row() * (static_cast<std::size_t>(ny) + 2 * border); }
+        std::size_t row() const { return static_cast<std::size_t>(nx) + std::size_t{2} * border; }
+        std::size_t plane() const { return row() * (static_cast<std::size_t>(ny) + std::size_t{2} * border); }
         std::size_t at(int x, int y, int z) const {
-            return static_cast<std::size_t>(z + border) * plane() +
-                   static_cast<std::size_t>(y + border) * row() + static_cast<std::size_t>(x + border);
+            const auto within = [](int i) {
+                return static_cast<std::size_t>(std::ptrdiff_t{i} + std::ptrdiff_t{border});
+            };
+            return within(z) * plane() + within(y) * row() + within(x);
         }
     };
 

@@ -47,7 +47,7 @@ void fill_run(const Run& run, int count, std::int8_t* depths) {
 void widen(std::span<const Run> runs, std::vector<Run>& wide) {
     wide.clear();
     for (const Run& run : runs) {
-        constexpr std::int32_t least = run_unit * 3 / 2;
+        constexpr std::int32_t least = run_unit * 7 / 4;
         const std::int32_t missing = std::max(least - (run.end - run.begin), 0);
         const Run wider{run.begin - missing / 2, run.end + (missing + 1) / 2};
         if (!wide.empty() && wider.begin <= wide.back().end) {
@@ -141,8 +141,8 @@ void PlaneDepths::combine(int y) {
     const std::int8_t* const across = &across_[static_cast<std::size_t>(y)];
     std::uint8_t* const out = &steep_[at(0, y)];
     const auto set = [&](int x) {
-        const int depth = depth_at(along[x], across[std::ptrdiff_t{x} * rows_], table);
-        out[x] = static_cast<std::uint8_t>(depth + surface_depth);
+        const std::int8_t depth = depth_at(along[x], across[std::ptrdiff_t{x} * rows_], table);
+        out[x] = static_cast<std::uint8_t>(surface_depth + depth);
     };
     int x = 0;
     for (; x + 8 <= columns_; x += 8) {

@@ -28,7 +28,7 @@ float encoded(double light) {
             values[static_cast<std::size_t>(i)] = static_cast<float>(encoded_exactly(i / double{steps}));
         return values;
     }();
-    return table[static_cast<std::size_t>(std::clamp(light, 0.0, 1.0) * steps + 0.5)];
+    return table[static_cast<std::size_t>(std::clamp(light, 0.0, 1.0) * steps)];
 }
 
 glm::vec3 encoded(glm::vec3 light) {
@@ -62,7 +62,9 @@ class TilePainter {
     }
 
   private:
-    static std::size_t at(int i, int j) { return static_cast<std::size_t>(j * tile_edge + i); }
+    static std::size_t at(int i, int j) {
+        return static_cast<std::size_t>(std::ptrdiff_t{j} * tile_edge + i);
+    }
 
     /// The point of the picture, -1 to 1 across its shorter side, at a place in the tile.
     dvec2 place(double i, double j) const {
@@ -97,7 +99,7 @@ class TilePainter {
     }
 
     double ground_point(int column, int row) {
-        float& light = ground_[static_cast<std::size_t>(row * ground_points + column)];
+        float& light = ground_[static_cast<std::size_t>(std::ptrdiff_t{row} * ground_points + column)];
         if (light < 0) {
             const dvec2 p =
                 place((column - 1) * ground_step + border_px, (row - 1) * ground_step + border_px);
@@ -164,7 +166,7 @@ class TilePainter {
             &picture_.rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
                            static_cast<std::size_t>(x)) *
                           3];
-        for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(code[k] * 255 + 0.5F);
+        for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(std::lround(code[k] * 255));
     }
 
     const PreviewView& view_;
