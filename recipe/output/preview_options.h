@@ -18,6 +18,7 @@ struct PreviewOptions {
     /// Shows the bounds at the same scale from every direction and whatever is cut away, for frames of an
     /// orbit; otherwise what is seen just fits the picture.
     bool steady = false;
+    bool smooth = true;   ///< takes more samples along edges; without them, frames follow faster
     int threads = 0;      ///< 0: one a core
     bool faults = false;  ///< the second solid shows faults of the part, not supports
     /// Returns the colour (linear light) of the part at a point, mm; empty: uniform.

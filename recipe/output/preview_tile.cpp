@@ -55,7 +55,8 @@ class TilePainter {
         for (int j = border_px; j < tile_edge - border_px && top_ + j - border_px < picture_.height; ++j) {
             for (int i = border_px; i < tile_edge - border_px && left_ + i - border_px < picture_.width;
                  ++i) {
-                const glm::vec3 code = on_edge(i, j) ? smoothed(i, j) : pixels_[at(i, j)].code;
+                const glm::vec3 code =
+                    view_.smooth() && on_edge(i, j) ? smoothed(i, j) : pixels_[at(i, j)].code;
                 store(left_ + i - border_px, top_ + j - border_px, code);
             }
         }

@@ -38,6 +38,7 @@ class PreviewView {
     double ground_light(dvec3 direction) const;
 
     dvec3 ray(double x, double y) const { return camera_.ray(x, y); }
+    bool smooth() const { return options_.smooth; }
 
   private:
     std::optional<PreviewHit> cut_hit(dvec3 direction, double t) const;
