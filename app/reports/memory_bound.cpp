@@ -26,13 +26,13 @@ constexpr std::int64_t bytes_per_triangle = 12 + 8 + 72;  // corners, index, cor
 constexpr double held_while_read = 2.5, held_while_read_3mf = 6;
 constexpr std::int64_t band_rows = 64;
 constexpr std::int64_t program_bytes = 13 << 20;  // measured: the resident size of slicing a plain box
-constexpr double picture_cells = 500;           // along the longest side of a foam drawn for a file's picture
-constexpr double bytes_per_picture_cell = 0.4;  // measured: a bit, the pyramid of densities, and slicing
+constexpr double picture_cells = 290;  // along the longest side of what is drawn for a picture of 480 px
+constexpr double bytes_per_picture_cell = 1.5;  // depths, the pyramid of densities, and bits
 
-/// Returns the memory for drawing a file's picture of foam.
+/// Returns the memory for drawing a file's picture.
 std::int64_t picture_bytes(const Recipe& recipe, dvec3 size) {
     const auto embeds_picture = find_backend(recipe.printer.backend).embeds_picture;
-    if (embeds_picture == nullptr || !embeds_picture(recipe.printer) || !recipe.foam) return 0;
+    if (embeds_picture == nullptr || !embeds_picture(recipe.printer)) return 0;
     const dvec3 cells = size * (picture_cells / std::max({size.x, size.y, size.z}));
     return static_cast<std::int64_t>(cells.x * cells.y * cells.z * bytes_per_picture_cell);
 }

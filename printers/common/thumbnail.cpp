@@ -33,8 +33,7 @@ void append_chunk(std::string& out, const std::string& type, const std::string& 
     append_number(out, libdeflate_crc32(0, checked.data(), checked.size()));
 }
 
-std::string compressed(const std::string& bytes) {
-    constexpr int level = 9;
+std::string compressed(const std::string& bytes, int level) {
     const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
         libdeflate_alloc_compressor(level), libdeflate_free_compressor);
     if (!compressor) throw FaultError("no memory to compress a picture");
@@ -82,7 +81,7 @@ Picture centred(const Picture& picture, int width, int height) {
     return large;
 }
 
-std::string png_file(const Picture& picture) {
+std::string png_file(const Picture& picture, int level) {
     std::string out("\x89PNG\r\n\x1a\n");
     std::string header;
     append_number(header, static_cast<std::uint32_t>(picture.width));
@@ -99,7 +98,7 @@ std::string png_file(const Picture& picture) {
             rows.push_back(static_cast<char>(pixel(picture, 0, row)[i] - above));
         }
     }
-    append_chunk(out, "IDAT", compressed(rows));
+    append_chunk(out, "IDAT", compressed(rows, level));
     append_chunk(out, "IEND", "");
     return out;
 }

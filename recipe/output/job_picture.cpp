@@ -31,14 +31,10 @@ Picture render_job(const Recipe& recipe, const BuiltJob& built, const std::optio
 
 void add_picture(const Recipe& recipe, BuiltJob& built, const std::optional<BuiltSupports>& supports,
                  int threads) {
-    // Foam is rendered roughly: its distances would take longer than its layers. Smooth walls would show the
-    // grid.
-    built.job.picture = [drawn = scenery(recipe, built, supports), has_foam = recipe.foam.has_value(),
-                         threads](int size) {
+    built.job.picture = [drawn = scenery(recipe, built, supports), threads](int size) {
         PreviewOptions options;
         options.width = options.height = size;
         options.cut = '-';
-        options.quick = has_foam;
         options.threads = threads;
         return render_preview(drawn.part, drawn.supports, drawn.bounds, options);
     };

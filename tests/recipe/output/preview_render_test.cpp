@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <thread>
 
 #include "engine/solids/primitives.h"
 
@@ -88,83 +91,166 @@ TEST_CASE("supports stand off from the part in a picture, whole and cut", "[prev
 
 namespace {
 
-/// What part and supports take of a picture: views differ by how closely the grid encloses these.
-Rect framed(const Picture& image) {
-    Rect seen;
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            const dvec2 p(x, y);
-            if (kind_at(image, x, y) != Kind::ground) seen = unite(seen, Rect{p, p + 1.0});
-        }
-    }
-    return seen;
+/// The scale of a steady view: half its shorter side spans the tangent of 14 degrees, and the sphere around
+/// the bounds fills 86 % of that angle.
+double steady_distance(const Box& bounds) {
+    return length(bounds.size()) / 2 / std::sin(14 * pi / 180 * 0.86);
+}
+double pixels_of(double tangent, const PreviewOptions& options) {
+    return tangent / std::tan(14 * pi / 180) * options.width / 2;
 }
 
-/// The pixel of a picture at a share of its frame.
-std::pair<int, int> pixel_at(const Rect& frame, double across, double down) {
-    return {static_cast<int>(frame.lo.x + across * frame.size().x),
-            static_cast<int>(frame.lo.y + down * frame.size().y)};
+PreviewOptions steady(double azimuth, char cut) {
+    PreviewOptions options;
+    options.width = options.height = 256;
+    options.azimuth = azimuth;
+    options.elevation = 0;
+    options.cut = cut;
+    options.steady = true;
+    return options;
 }
 
 }  // namespace
 
-TEST_CASE("a quick picture shows the same things in the same places as an exact one", "[preview]") {
-    constexpr int points = 100;
-    for (const char cut : {'-', 'y'}) {
-        PreviewOptions options = from_the_front(cut);
-        const Picture exact = render_preview(make_box(slab), make_box(wall), whole, options);
-        options.quick = true;
-        const Picture quick = render_preview(make_box(slab), make_box(wall), whole, options);
-        const Rect exact_frame = framed(exact), quick_frame = framed(quick);
-        CHECK(quick_frame.size().x == Approx(exact_frame.size().x).epsilon(0.08));
-        CHECK(quick_frame.size().y == Approx(exact_frame.size().y).epsilon(0.08));
-        int differ = 0;
-        for (int j = 0; j < points; ++j) {
-            for (int i = 0; i < points; ++i) {
-                const auto [x, y] = pixel_at(exact_frame, (i + 0.5) / points, (j + 0.5) / points);
-                const auto [u, v] = pixel_at(quick_frame, (i + 0.5) / points, (j + 0.5) / points);
-                differ += kind_at(exact, x, y) != kind_at(quick, u, v) ? 1 : 0;
+TEST_CASE("the outline of a ball is the circle of its tangents", "[preview]") {
+    const FieldPtr ball = make_sphere(dvec3(1, 2, 3), 10);
+    const PreviewOptions options = steady(20, '-');
+    const Picture image = render_preview(ball, nullptr, ball->bounds(), options);
+    const double radius = pixels_of(std::tan(std::asin(10 / steady_distance(ball->bounds()))), options);
+    CHECK(radius > 50);
+    int wrong = 0, seen = 0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const double from_centre = std::hypot(x + 0.5 - 128, y + 0.5 - 128);
+            if (std::abs(from_centre - radius) < 1) continue;
+            const bool inside = from_centre < radius;
+            wrong += (kind_at(image, x, y) == Kind::part) != inside ? 1 : 0;
+            seen += inside ? 1 : 0;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(seen > 7000);
+}
+
+TEST_CASE("light on a ball changes smoothly and grows towards the lamp", "[preview]") {
+    const FieldPtr ball = make_sphere(dvec3(0), 10);
+    const PreviewOptions options = steady(0, '-');
+    const Picture image = render_preview(ball, nullptr, ball->bounds(), options);
+    const auto green = [&](int x, int y) {
+        return int{image.rgb[3 * static_cast<std::size_t>(y * 256 + x) + 1]};
+    };
+    const double radius = pixels_of(std::tan(std::asin(10 / steady_distance(ball->bounds()))), options);
+    for (int y = 0; y < 256; ++y) {
+        for (int x = 0; x + 1 < 256; ++x) {
+            if (std::hypot(x + 0.5 - 128, y + 0.5 - 128) > 0.9 * radius) continue;
+            REQUIRE(std::abs(green(x, y) - green(x + 1, y)) <= 8);
+            REQUIRE(std::abs(green(x, y) - green(x, y + 1)) <= 8);
+        }
+    }
+    // The lamp stands above, to the right, on the eye's side.
+    const int far = static_cast<int>(0.6 * radius);
+    CHECK(green(128, 128 - far) > green(128, 128) + 10);
+    CHECK(green(128, 128) > green(128, 128 + far) + 10);
+    CHECK(green(128 + far, 128) > green(128 - far, 128) + 5);
+}
+
+TEST_CASE("the face of a cut ball is a disc of one colour", "[preview]") {
+    const FieldPtr ball = make_sphere(dvec3(0), 10);
+    const PreviewOptions options = steady(0, 'y');
+    const Picture image = render_preview(ball, nullptr, ball->bounds(), options);
+    // The plane through the centre is as far from the eye as the centre.
+    const double radius = pixels_of(10 / steady_distance(ball->bounds()), options);
+    CHECK(count(image, Kind::cut) == Approx(pi * radius * radius).epsilon(0.02));
+    const std::size_t middle = 3 * (128 * 256 + 128);
+    for (int y = 0; y < 256; ++y) {
+        for (int x = 0; x < 256; ++x) {
+            if (std::hypot(x + 0.5 - 128, y + 0.5 - 128) > radius - 2) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                REQUIRE(std::abs(int{image.rgb[3 * static_cast<std::size_t>(y * 256 + x) + k]} -
+                                 int{image.rgb[middle + k]}) <= 2);
             }
         }
-        CHECK(differ < points * points / 25);  // along the outlines
     }
 }
 
-TEST_CASE("a quick picture of a ball is shaded as an exact one", "[preview]") {
-    PreviewOptions options = from_the_front('-');
-    const FieldPtr ball = make_sphere(dvec3(0), 10);
-    const Picture exact = render_preview(ball, nullptr, ball->bounds(), options);
-    options.quick = true;
-    const Picture quick = render_preview(ball, nullptr, ball->bounds(), options);
-    const Rect exact_frame = framed(exact), quick_frame = framed(quick);
-    const auto green = [](const Picture& image, std::pair<int, int> p) {
-        return int{image.rgb[3 * static_cast<std::size_t>(p.second * image.width + p.first) + 1]};
-    };
-    constexpr int points = 100;
-    double sum = 0;
-    int seen = 0, far = 0;
-    for (int j = 0; j < points; ++j) {
-        for (int i = 0; i < points; ++i) {
-            const double across = (i + 0.5) / points, down = (j + 0.5) / points;
-            if (std::hypot(across - 0.5, down - 0.5) > 0.45) continue;
-            const int difference = std::abs(green(exact, pixel_at(exact_frame, across, down)) -
-                                            green(quick, pixel_at(quick_frame, across, down)));
-            sum += difference;
-            far += difference > 30 ? 1 : 0;
-            ++seen;
+TEST_CASE("thin beams cover what their radius and length say, without holes", "[preview]") {
+    // Slanted, so that the beam lies oblique to slices, rows and columns.
+    const dvec3 end(14, 0, 9);
+    for (const double radius : {0.2, 0.35, 0.6}) {
+        const FieldPtr beam = make_round_cone({-end, radius, end, radius});
+        const PreviewOptions options = steady(0, '-');
+        const Box bounds{dvec3(-18), dvec3(18)};
+        const Picture image = render_preview(beam, nullptr, bounds, options);
+        const double scale = pixels_of(1 / steady_distance(bounds), options);
+        const double area = (2 * radius * 2 * length(end) + pi * radius * radius) * scale * scale;
+        double covered = 0;  // by colour: darkest where the beam fills the pixel
+        for (int y = 0; y < 256; ++y) {
+            for (int x = 0; x < 256; ++x) covered += kind_at(image, x, y) == Kind::part ? 1 : 0;
+        }
+        INFO(radius << " mm: " << covered << " of " << area << " px");
+        // A beam thinner than two pixels is drawn somewhat thicker.
+        CHECK(covered > 0.8 * area);
+        CHECK(covered < 1.2 * area + 2.0 * 2 * length(end) * scale * std::max(0.0, 1 - radius * scale));
+        // Every column along the beam shows it.
+        const int reach = static_cast<int>(0.95 * end.x * scale);
+        for (int x = 128 - reach; x < 128 + reach; ++x) {
+            int darkest = 255;
+            for (int y = 0; y < 256; ++y)
+                darkest = std::min(darkest, int{image.rgb[3 * static_cast<std::size_t>(y * 256 + x)]});
+            REQUIRE(darkest < 215);
         }
     }
-    CHECK(seen > 6000);
-    CHECK(sum / seen < 12);  // of 255: steps of the grid show on it
-    CHECK(far < seen / 20);
+}
+
+TEST_CASE("a scene is drawn from several sides as pictures of its own are", "[preview]") {
+    const FieldPtr part = make_box(slab);
+    const PreviewScene scene(part, make_box(wall), whole, {160, 2, {}});
+    for (const double azimuth : {0.0, 70.0, 0.0}) {
+        PreviewOptions options = from_the_front('-');
+        options.azimuth = azimuth;
+        CHECK(scene.render(options).rgb == render_preview(part, make_box(wall), whole, options).rgb);
+        // A scene keeps what a picture of a cut part leaves out: the views differ along edges at most.
+        options.cut = 'y';
+        options.steady = true;
+        const Picture view = scene.render(options);
+        const Picture alone = render_preview(part, make_box(wall), whole, options);
+        for (const Kind kind : {Kind::part, Kind::cut, Kind::support})
+            CHECK(count(view, kind) == Approx(count(alone, kind)).epsilon(0.03).margin(10));
+    }
+}
+
+TEST_CASE("scenes and views stop soon when they are cancelled", "[preview]") {
+    const FieldPtr part = make_box(slab);
+    CancelToken cancel;
+    const PreviewScene scene(part, nullptr, whole, {160, 1, {}}, &cancel);
+    PreviewOptions options = from_the_front('x');
+    CHECK(scene.render(options, &cancel).width == 160);
+    cancel.cancel();
+    CHECK_THROWS_AS(scene.render(options, &cancel), Interrupted);
+    CHECK_THROWS_AS(PreviewScene(part, nullptr, whole, {160, 1, {}}, &cancel), Interrupted);
+
+    CancelToken later;
+    options.width = options.height = 4096;  // takes seconds
+    std::chrono::steady_clock::time_point asked;
+    std::thread stopper([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        asked = std::chrono::steady_clock::now();
+        later.cancel();
+    });
+    CHECK_THROWS_AS(scene.render(options, &later), Interrupted);
+    const auto stopped = std::chrono::steady_clock::now();
+    stopper.join();
+    CHECK(stopped - asked < std::chrono::milliseconds(500));  // 50 on a machine that does nothing else
 }
 
 TEST_CASE("a picture does not change with the number of threads", "[preview]") {
     PreviewOptions options = from_the_front('x');
     options.threads = 1;
     const Picture one = render_preview(make_box(slab), make_box(wall), whole, options);
-    options.threads = 3;
-    CHECK(render_preview(make_box(slab), make_box(wall), whole, options).rgb == one.rgb);
+    for (const int threads : {3, 4}) {
+        options.threads = threads;
+        CHECK(render_preview(make_box(slab), make_box(wall), whole, options).rgb == one.rgb);
+    }
 }
 
 }  // namespace preview_render_test
