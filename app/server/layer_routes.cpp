@@ -6,7 +6,7 @@
 #include "app/server/layer_content.h"
 #include "app/server/server_state.h"
 #include "printers/common/thumbnail.h"
-#include "recipe/output/job_picture.h"
+#include "recipe/output/preview_render.h"
 
 namespace lamella {
 
@@ -79,9 +79,9 @@ HttpReply frame(const Asked& asked, const HttpRequest& request, int threads) {
     options.cut = cut.front();
     options.cut_at = request.number("cut_at", options.cut_at, 0, 1);
     options.threads = threads;
-    options.quick = true;
-    const ServedJob& job = *asked.job;
-    return {"image/png", png_file(render_job(job.recipe, job.built, job.supports, options))};
+    options.steady = true;
+    options.smooth = request.integer("smooth", 1, 0, 1) == 1;
+    return {"image/png", png_file(asked.job->scene(options.width, threads)->render(options))};
 }
 
 }  // namespace

@@ -115,6 +115,19 @@ std::shared_ptr<const ServedJob> build_served_job(const std::string& text, const
     return served;
 }
 
+std::shared_ptr<const PreviewScene> ServedJob::scene(int pixels, int threads) const {
+    const std::lock_guard lock(scene_mutex_);
+    // One that is much too fine would be slow.
+    if (!scene_ || scene_pixels_ < pixels || scene_pixels_ > 2 * pixels) {
+        SceneOptions options;
+        options.pixels = pixels;
+        options.threads = threads;
+        scene_ = make_scene(recipe, built, supports, options);
+        scene_pixels_ = pixels;
+    }
+    return scene_;
+}
+
 nlohmann::ordered_json ServedJob::facts() const {
     using Json = nlohmann::ordered_json;
     const PrinterProfile& printer = recipe.printer;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "app/server/served_folder.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/build_supports.h"
+#include "recipe/output/preview_render.h"
 
 namespace lamella {
 
@@ -23,8 +25,15 @@ struct ServedJob {
     int plates = 1;  ///< that the parts need
 
     const Job& job() const { return built.job; }
+    /// Returns a scene for pictures of so many pixels a side, which is kept for the next one.
+    std::shared_ptr<const PreviewScene> scene(int pixels, int threads) const;
     /// Name, machine, bounds, layers and notes, as the interface describes a job.
     nlohmann::ordered_json facts() const;
+
+  private:
+    mutable std::mutex scene_mutex_;
+    mutable std::shared_ptr<const PreviewScene> scene_;
+    mutable int scene_pixels_ = 0;
 };
 
 /// How far a build is: what is done, and how many steps of how many.

@@ -29,6 +29,13 @@ Picture render_job(const Recipe& recipe, const BuiltJob& built, const std::optio
     return render_preview(drawn.part, drawn.supports, drawn.bounds, options);
 }
 
+std::unique_ptr<const PreviewScene> make_scene(const Recipe& recipe, const BuiltJob& built,
+                                               const std::optional<BuiltSupports>& supports,
+                                               const SceneOptions& options) {
+    const Scenery drawn = scenery(recipe, built, supports);
+    return std::make_unique<const PreviewScene>(drawn.part, drawn.supports, drawn.bounds, options);
+}
+
 void add_picture(const Recipe& recipe, BuiltJob& built, const std::optional<BuiltSupports>& supports,
                  int threads) {
     built.job.picture = [drawn = scenery(recipe, built, supports), threads](int size) {
