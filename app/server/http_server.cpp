@@ -168,14 +168,28 @@ struct HttpServer::State {
             response.set_content(reply.body, reply.content_type.c_str());
             return;
         }
-        response.set_chunked_content_provider(
-            reply.content_type.c_str(), [this, stream = reply.stream](std::size_t, httplib::DataSink& sink) {
-                const HttpSink write = [&](const std::string& piece) {
-                    return sink.is_writable() && sink.write(piece.data(), piece.size());
-                };
-                if (stops || !stream(write)) sink.done();
-                return true;
-            });
+        // A reply that cannot be sent to its end must not look whole: the connection is then cut.
+        const auto send_piece = [this, stream = reply.stream,
+                                 counts = reply.length.has_value()](httplib::DataSink& sink) {
+            bool is_cut = false;
+            const HttpSink write = [&](const std::string& piece) {
+                is_cut = !sink.write(piece.data(), piece.size());
+                return !is_cut;
+            };
+            const bool has_ended = stops || !stream(write);
+            if (has_ended && counts) return false;  // before its length: the library ends it there
+            if (has_ended) sink.done();
+            return !is_cut;
+        };
+        if (reply.length) {
+            response.set_content_provider(
+                *reply.length, reply.content_type.c_str(),
+                [send_piece](std::size_t, std::size_t, httplib::DataSink& sink) { return send_piece(sink); });
+        } else {
+            response.set_chunked_content_provider(
+                reply.content_type.c_str(),
+                [send_piece](std::size_t, httplib::DataSink& sink) { return send_piece(sink); });
+        }
     }
 
     void dispatch(const httplib::Request& given, httplib::Response& response) {

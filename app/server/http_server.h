@@ -6,7 +6,9 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/base/error.h"
 
@@ -58,6 +60,7 @@ struct HttpReply {
     std::string file_name;  ///< of a download; empty: none
     /// Sends the body in pieces until it returns false; empty: `body` is all.
     std::function<bool(const HttpSink& sink)> stream;
+    std::optional<std::size_t> length;  ///< of all pieces, where it is known
 };
 
 using HttpHandler = std::function<HttpReply(const HttpRequest& request)>;

@@ -38,6 +38,7 @@ HttpReply send_file(const std::filesystem::path& path) {
     reply.file_name = path.filename().string();
     auto in = std::make_shared<std::ifstream>(path, std::ios::binary);
     if (!*in) throw HttpError(404, "the file is gone");
+    reply.length = std::filesystem::file_size(path);
     reply.stream = [in, piece = std::string()](const HttpSink& sink) mutable {
         constexpr std::size_t piece_size = 1 << 18;
         piece.resize(piece_size);
