@@ -101,7 +101,7 @@ void add_serve_command(CLI::App& root) {
         } else if (options->stdio) {
             run();
         } else {
-            throw InputError("serve: accepted: --stdio or --http");
+            throw InputError("serve: no way to listen is given; accepted: --stdio or --http");
         }
     });
 }

@@ -34,7 +34,13 @@ void run(const StudioCommand& command) {
         if (path.extension() != ".toml" || !std::filesystem::is_regular_file(path))
             throw InputError(command.recipe + ": no recipe; accepted: a .toml file, or none to begin anew");
         if (command.server.folder.empty()) options.folder = path.has_parent_path() ? path.parent_path() : ".";
-        options.recipe = std::filesystem::relative(path, options.folder).string();
+        // Paths in a recipe are relative to its folder, and so are those of the server.
+        std::error_code error;
+        const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
+        if (!std::filesystem::equivalent(parent, options.folder, error))
+            throw InputError("--folder: " + command.recipe +
+                             " does not lie in it; accepted: the recipe's folder");
+        options.recipe = path.filename().string();
     }
     CancelToken cancel;
     const InterruptGuard guard(cancel);
