@@ -134,6 +134,11 @@ export function build_job(text, extents) {
         bounds,
         layers: { count, heights: [[count, height]], height_mm: +(count * height).toFixed(4) },
         z0: bounds.lo[2],
+        axes: [
+            [1, 0, 0],
+            [0, 1, 0],
+            [0, 0, 1],
+        ],
         supports,
         notes,
         display,

@@ -19,6 +19,8 @@ uniform bool fine;         // false while the view moves: fewer samples
 uniform float layer_z, layer_half;  // the layer that is marked
 uniform vec3 part_colour, support_colour, cut_colour, support_cut_colour, layer_colour, grid_colour;
 uniform float grid_pitch;
+uniform int faults;        // boxes that are painted
+uniform vec3 fault_lo[64], fault_hi[64], fault_colour;
 
 in vec2 at;
 out vec4 colour;
@@ -71,6 +73,13 @@ vec4 plate(vec3 origin, vec3 ray) {  // lines on the bed, which fade with the di
     float line = 1.0 - smoothstep(0.5 * wide, 1.5 * wide, min(off.x, off.y));
     float alpha = line * fade * 0.55;
     return vec4(grid_colour * alpha, alpha);
+}
+
+bool is_faulty(vec3 p) {
+    for (int i = 0; i < faults; ++i) {
+        if (all(greaterThanEqual(p, fault_lo[i] - voxel)) && all(lessThanEqual(p, fault_hi[i] + voxel))) return true;
+    }
+    return false;
 }
 
 void main() {
@@ -130,6 +139,7 @@ void main() {
         if (dot(normal, ray) > 0.0) normal = normalize(normal - ray * dot(normal, ray));
         colour = vec4(shade(is_support ? support_colour : part_colour, normal, ray, p), 1.0);
     }
+    if (is_faulty(p)) colour.rgb = mix(colour.rgb, fault_colour, 0.75);
     float band = max(layer_half, 0.35 * voxel);
     float ring = 1.0 - smoothstep(band, band + 0.35 * voxel, abs(p.z - layer_z));
     if (!on_cut || cut_axis != 2) colour.rgb = mix(colour.rgb, layer_colour, 0.85 * ring);

@@ -1,7 +1,12 @@
 // The 3D view: the part, its cut, the layer that is looked at and the places of faults.
 import { effect, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { faults } from "../check/faults";
 import { get_volume } from "../server/api";
+import { HandleCard } from "../place/card";
+import { open_menu, PlaceMenu } from "../place/menu";
+import { placing, put_thing } from "../place/things";
+import { ViewMarks } from "../place/view_marks";
 import { Latest } from "../server/latest";
 import type { Job } from "../server/types";
 import { layer_at, plane_of, slab_of } from "../state/heights";
@@ -57,11 +62,37 @@ function watch_scene(on: Stage): () => void {
             layer_z: plane_of(made, k),
             layer_height: slab_of(made, k).height,
             colours: read_colours(),
+            faults: faults.value.map(({ place }) => place.box_mm ?? { lo: place.at_mm, hi: place.at_mm }),
         });
     });
 }
 
-/** A click, as opposed to a drag, goes to the layer of the place that was hit. */
+/** A right click without a drag opens the menu of what can be put there. */
+function watch_menu(on: Stage, frame: HTMLElement): () => void {
+    let down: [number, number] | null = null;
+    const press = (event: PointerEvent) => {
+        down = event.button === 2 ? [event.clientX, event.clientY] : null;
+    };
+    const open = (event: MouseEvent) => {
+        event.preventDefault();
+        const still = !down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) <= 4;
+        const box = frame.getBoundingClientRect();
+        const by_key = event.button !== 2;
+        const [x, y] = by_key
+            ? [box.left + box.width / 2, box.top + box.height / 2]
+            : [event.clientX, event.clientY];
+        const place = still || by_key ? on.place_at(x - box.left, y - box.top) : null;
+        if (place) open_menu(x, y, place);
+    };
+    frame.addEventListener("pointerdown", press);
+    frame.addEventListener("contextmenu", open);
+    return () => {
+        frame.removeEventListener("pointerdown", press);
+        frame.removeEventListener("contextmenu", open);
+    };
+}
+
+/** A click, as opposed to a drag, goes to the layer of the place that was hit, or puts what waits there. */
 function watch_clicks(on: Stage, frame: HTMLElement): () => void {
     let down: [number, number] | null = null;
     const press = (event: PointerEvent) => {
@@ -72,7 +103,8 @@ function watch_clicks(on: Stage, frame: HTMLElement): () => void {
         if (!down || !made || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
         const box = frame.getBoundingClientRect();
         const place = on.place_at(event.clientX - box.left, event.clientY - box.top);
-        if (place) layer.value = layer_at(made, place[2] - made.z0);
+        if (place && placing.value) put_thing(placing.value, place);
+        else if (place) layer.value = layer_at(made, place[2] - made.z0);
     };
     frame.addEventListener("pointerdown", press);
     frame.addEventListener("pointerup", release);
@@ -80,6 +112,12 @@ function watch_clicks(on: Stage, frame: HTMLElement): () => void {
         frame.removeEventListener("pointerdown", press);
         frame.removeEventListener("pointerup", release);
     };
+}
+
+/** What waits for its place goes to the middle of the view. */
+function put_in_middle(on: Stage): void {
+    const place = placing.value && on.place_at_middle();
+    if (placing.value && place) put_thing(placing.value, place);
 }
 
 function on_key(on: Stage, event: KeyboardEvent): void {
@@ -93,6 +131,10 @@ function on_key(on: Stage, event: KeyboardEvent): void {
         "=": () => on.orbit.zoom(0.85),
         "-": () => on.orbit.zoom(1 / 0.85),
         Home: () => on.orbit.reset(),
+        Escape: () => {
+            placing.value = null;
+        },
+        Enter: () => put_in_middle(on),
     };
     const move = moves[event.key];
     if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -109,7 +151,7 @@ export function View() {
         stage.value = on;
         webgl.value = on.has_webgl;
         const stops = on.has_webgl
-            ? [watch_volume(on), watch_scene(on), watch_clicks(on, frame.current!)]
+            ? [watch_volume(on), watch_scene(on), watch_clicks(on, frame.current!), watch_menu(on, frame.current!)]
             : [];
         return () => {
             for (const stop of stops) stop();
@@ -120,23 +162,26 @@ export function View() {
     return (
         <section class="view" aria-label="Part">
             <div
-                class="view-frame"
+                class={`view-frame${placing.value ? " aiming" : ""}`}
                 ref={frame}
                 tabIndex={0}
                 role="application"
-                aria-label="3D view. Arrow keys turn the part, plus and minus zoom, Home shows all of it."
+                aria-label="3D view. Arrow keys turn the part, plus and minus zoom, Home shows all of it, Enter puts what waits for a place in the middle."
                 onKeyDown={(event) => stage.value && on_key(stage.value, event)}
             >
                 <canvas ref={canvas} aria-hidden="true" />
                 {!webgl.value && <Fallback />}
             </div>
+            {webgl.value && <ViewMarks />}
             {webgl.value && <FaultMarkers />}
             {webgl.value && <Triad />}
             {building.value && <div class="view-chip late">computing…</div>}
             {!building.value && mistakes.value.length > 0 && job.value && (
                 <div class="view-chip">the recipe before its {mistakes.value.length > 1 ? "mistakes" : "mistake"}</div>
             )}
+            <HandleCard />
             <CutBar />
+            <PlaceMenu />
         </section>
     );
 }
