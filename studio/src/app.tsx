@@ -9,6 +9,7 @@ import { Messages } from "./shell/messages";
 import { Segments } from "./shell/segments";
 import { StatusLine } from "./shell/status";
 import { DropShade } from "./start/drop";
+import { PictureDialog } from "./start/picture_dialog";
 import { Start } from "./start/start";
 import { left_mode, ready, starting, tab, text } from "./state/store";
 import { TextEditor } from "./text/editor";
@@ -68,6 +69,7 @@ export function App() {
             <StatusLine />
             <Messages />
             <DropShade />
+            <PictureDialog />
         </>
     );
 }
