@@ -71,8 +71,10 @@ export class Stage {
     }
 
     set_scene(scene: Omit<Scene, "fine" | "stride">): void {
-        this.scene = { ...scene, fine: true, stride: fine_stride };
-        this.invalidate();
+        const next = { ...scene, fine: true, stride: fine_stride };
+        const same = JSON.stringify(next) === JSON.stringify(this.scene);
+        this.scene = next;
+        if (!same) this.invalidate();
     }
 
     /** Something has changed: draws quickly, and finely when nothing changes for a while. */

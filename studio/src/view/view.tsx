@@ -1,8 +1,9 @@
 // The 3D view: the part, its cut, the layer that is looked at and the places of faults.
-import { effect, useSignal } from "@preact/signals";
+import { effect, untracked, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { faults } from "../check/faults";
 import { get_volume } from "../server/api";
+import { after_layer } from "../layers/layer_first";
 import { HandleCard } from "../place/card";
 import { open_menu, PlaceMenu } from "../place/menu";
 import { placing, put_thing } from "../place/things";
@@ -30,6 +31,7 @@ const idle = 400;
 function watch_volume(on: Stage): () => void {
     const latest = new Latest();
     let timer = 0;
+    let call_off = () => {};
     const load = (made: Job, voxels: number) =>
         latest.run(async (signal) => {
             const volume = read_volume(await get_volume(made, voxels, signal));
@@ -40,12 +42,18 @@ function watch_volume(on: Stage): () => void {
     const stop = effect(() => {
         const made = job.value;
         clearTimeout(timer);
+        call_off();
         if (!made) return;
-        load(made, coarse);
-        timer = window.setTimeout(() => load(made, fine), idle);
+        call_off = untracked(() =>
+            after_layer(made, () => {
+                load(made, coarse);
+                timer = window.setTimeout(() => load(made, fine), idle);
+            }),
+        );
     });
     return () => {
         stop();
+        call_off();
         latest.cancel();
         clearTimeout(timer);
     };
