@@ -37,7 +37,7 @@ float around(vec3 p) {  // as value, but nothing is outside the box, except belo
 
 vec3 gradient(vec3 p) {  // samples on two shells, wide enough to smooth the steps between slices
     const vec3 k = vec3(1.0, -1.0, 0.0);
-    float h = 1.1 * voxel, g = 1.9 * voxel;
+    float h = (fine ? 1.1 : 1.8) * voxel, g = 1.9 * voxel;
     if (!fine) {
         return -(k.xyy * around(p + k.xyy * h) + k.yyx * around(p + k.yyx * h) +
                  k.yxy * around(p + k.yxy * h) + k.xxx * around(p + k.xxx * h));
@@ -118,7 +118,7 @@ void main() {
     bool at_entry = t == first;
     if (!at_entry) {
         float outside = before, inside = t;
-        int halvings = fine ? 5 : 2;
+        int halvings = fine ? 5 : 4;
         for (int i = 0; i < halvings; ++i) {
             float half_way = 0.5 * (outside + inside);
             if (value(eye + safe * half_way) >= surface) inside = half_way; else outside = half_way;
