@@ -11,6 +11,7 @@
 #include "app/server/http_server.h"
 #include "app/server/job_store.h"
 #include "app/server/output_store.h"
+#include "app/server/served_printer.h"
 
 namespace lamella {
 
@@ -46,6 +47,7 @@ struct ServerState {
     EventHub events;
     JobStore jobs;
     OutputStore outputs;
+    ServedPrinter printer;
     ComputeTurn::Turns turns;
     std::mutex own_recipes_mutex;
     std::set<std::filesystem::path> own_recipes;  ///< which may be written again
@@ -57,9 +59,11 @@ void add_recipe_routes(ServerState& state);
 void add_job_routes(ServerState& state);
 void add_layer_routes(ServerState& state);
 void add_output_routes(ServerState& state);
+void add_print_routes(ServerState& state);
 void add_page_routes(ServerState& state);
 
-/// Serves until `cancel` is set; `on_ready` is told the address of the page or of the interface.
+/// Serves until `cancel` is set, and until a print that runs then was stopped with its heaters off.
+/// `on_ready` is told the address of the page or of the interface.
 void serve_http(const ServerOptions& options, const CancelToken& cancel,
                 const std::function<void(const std::string& address)>& on_ready);
 
