@@ -10,7 +10,7 @@ void PrintMessages::add(const std::string& text) {
     nlohmann::ordered_json message;
     {
         const std::lock_guard lock(mutex_);
-        message = {{"number", next_++}, {"text", text}};
+        message = {{"print", print_}, {"number", next_++}, {"text", text}};
         kept_.push_back(message);
         if (kept_.size() > most_kept) kept_.pop_front();
     }

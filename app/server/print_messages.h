@@ -16,9 +16,9 @@ struct LinkStatus;
 /// Keeps the last messages of a print, numbered from 1. Thread-safe.
 class PrintMessages {
   public:
-    /// `on_message` is told each new one, as {"number", "text"}.
-    explicit PrintMessages(std::function<void(const nlohmann::ordered_json&)> on_message)
-        : on_message_(std::move(on_message)) {}
+    /// `on_message` is told each new one, as {"print", "number", "text"}.
+    PrintMessages(int print, std::function<void(const nlohmann::ordered_json&)> on_message)
+        : print_(print), on_message_(std::move(on_message)) {}
 
     /// Adds a message, unless it is empty.
     void add(const std::string& text);
@@ -27,6 +27,7 @@ class PrintMessages {
   private:
     static constexpr std::size_t most_kept = 200;
 
+    int print_;
     std::function<void(const nlohmann::ordered_json&)> on_message_;
     mutable std::mutex mutex_;
     std::int64_t next_ = 1;

@@ -67,7 +67,7 @@ ServedPrint::ServedPrint(int number, std::shared_ptr<const ServedJob> job, Print
       request_(std::move(request)),
       threads_(threads),
       events_(events),
-      messages_([this](const Json& message) { events_.send("", "print_message", message); }) {
+      messages_(number, [this](const Json& message) { events_.send("", "print_message", message); }) {
     request_.link.on_message = [this](const std::string& text) { messages_.add(text); };
     link_ = std::make_shared<PrintLink>(request_.link);
     printing_ = std::thread([this] { print(); });

@@ -98,6 +98,11 @@ nlohmann::ordered_json ServedPrinter::tell(const std::function<void(ServedPrint&
     return print_->describe();
 }
 
+bool ServedPrinter::is_printing() const {
+    const std::lock_guard lock(mutex_);
+    return runs();
+}
+
 void ServedPrinter::end() {
     std::shared_ptr<ServedPrint> print;
     {

@@ -32,6 +32,7 @@ class ServedPrinter {
     nlohmann::ordered_json messages() const;
     /// Calls order(print) and returns the print's state. Throws HttpError 409 where none runs.
     nlohmann::ordered_json tell(const std::function<void(ServedPrint&)>& order);
+    bool is_printing() const;
     /// Stops a running print, and waits until its heaters are off. No other one is accepted.
     void end();
 

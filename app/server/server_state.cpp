@@ -43,6 +43,8 @@ void serve_http(const ServerOptions& options, const CancelToken& cancel,
     std::atomic<bool> has_ended = false;
     std::thread watch([&] {
         while (!cancel.cancelled() && !has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        if (state.printer.is_printing() && options.on_delay)
+            options.on_delay("stopping the print; wait until its heaters are off");
         state.printer.end();  // first, so that pages still see how it ends
         state.jobs.cancel_all();
         state.events.end();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <semaphore>
 #include <set>
@@ -22,6 +23,8 @@ struct ServerOptions {
     bool has_page = false;               ///< serves the studio's page
     int threads = 0;                     ///< for layers; 0: one per core
     std::size_t jobs = 4;                ///< that are held
+    /// Told why the server does not end at once; may be empty.
+    std::function<void(const std::string& text)> on_delay{};
 };
 
 /// Limits the requests that compute at the same time, each of which may use all threads.

@@ -270,6 +270,7 @@ TEST_CASE("a server that is interrupted stops its print and leaves the heaters o
     CHECK(!wait_for(0.3, [&] { return waitpid(child, &status, WNOHANG | WUNTRACED) == child; }));
     kill(child, SIGINT);
     CHECK(exit_code(child) == 0);
+    CHECK(mentions(contents(folder / "err"), "stopping the print"));
     CHECK(machine.executed().back() == "M84");
     CHECK(!machine.with([](SimulatedMarlin& printer, double) { return printer.heating(); }));
     CHECK(fs::exists(folder / "sphere.print.journal"));
