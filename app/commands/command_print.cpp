@@ -139,12 +139,7 @@ void run(PrintOptions options) {
                              "); accepted: a printer that does, such as --printer marlin");
         }
         name = recipe->part.name;
-        const FilamentProfile& bed = recipe->printer.filament;
-        options.link.park_y = bed.bed_y;
-        options.link.highest = bed.bed_z;
-        const GcodeProfile& gcode = recipe->printer.gcode;
-        options.link.motion.acceleration = options.link.motion.travel_acceleration = gcode.acceleration;
-        options.link.motion.junction_deviation = gcode.junction_deviation;
+        suit_printer(options.link, recipe->printer);
         prepared = prepare_job(options, *recipe, cancel);
     }
     options.link.grbl = is_grbl(options, recipe);

@@ -1,6 +1,8 @@
 // Address, folder, token and threads of a server.
 #include "app/commands/server_options.h"
 
+#include <cstdio>
+
 namespace lamella {
 
 void add_server_options(CLI::App& command, ServerFlags& flags) {
@@ -32,6 +34,7 @@ ServerOptions server_options(const ServerFlags& flags) {
     options.http.largest_body = largest_upload;
     if (!flags.folder.empty()) options.folder = flags.folder;
     options.threads = flags.threads;
+    options.on_delay = [](const std::string& text) { std::fputs((text + "\n").c_str(), stderr); };
     return options;
 }
 

@@ -27,8 +27,9 @@ std::string starved_text(const SenderStatistics& statistics) {
                                                static_cast<double>(statistics.advanced));
 }
 
-/// Returns what keeps the print from going on; empty if nothing does.
-std::string hindrance(const LinkStatus& status) {
+}  // namespace
+
+std::string hindrance_text(const LinkStatus& status) {
     if (status.lost) return "the port is gone, trying it again";
     if (status.stopping) return "stopping";
     if (status.waits) return "waiting for you";
@@ -38,8 +39,6 @@ std::string hindrance(const LinkStatus& status) {
     if (status.line_wait == LineWait::other) return "homing";
     return {};
 }
-
-}  // namespace
 
 std::string wait_text(const LinkStatus& status, std::optional<int> process) {
     if (!status.waits) return {};
@@ -61,7 +60,7 @@ std::string status_text(const LinkStatus& status, int last_layer, std::size_t co
     if (const auto share = status.progress.share())
         fields.push_back(fmt::format("{:3.0f} %", std::floor(100 * std::clamp(*share, 0.0, 1.0))));
     if (const auto left = status.progress.left()) fields.push_back(hours_text(*left) + " left");
-    if (std::string hinders = hindrance(status); !hinders.empty()) fields.push_back(std::move(hinders));
+    if (std::string hinders = hindrance_text(status); !hinders.empty()) fields.push_back(std::move(hinders));
     if (status.layer >= 0) {
         const int last = last_layer > 0 ? last_layer : status.progress.layers;
         fields.push_back(fmt::format("{} {}/{}", last_layer > 0 ? "layer" : "part", status.layer + 1, last));

@@ -11,6 +11,9 @@ namespace lamella {
 
 constexpr std::size_t any_width = static_cast<std::size_t>(-1);
 
+/// Returns what keeps the print from going on, such as "heating"; empty if nothing does.
+std::string hindrance_text(const LinkStatus& status);
+
 /// Returns " 42 %  1:10:05 left  layer 12/80  nozzle 210/210  bed 60/60  Z 2.40  4711 lines  8 layers ready",
 /// the most important first. What does not fit into `columns` is left out whole. `last_layer` is 0 for a
 /// ready file.

@@ -25,6 +25,7 @@ ServerState::ServerState(const ServerOptions& given)
       folder(given.folder),
       jobs(folder, events, given.threads, given.jobs),
       outputs(folder, events, given.threads),
+      printer(folder, events, given.threads),
       turns(most_computing) {
     if (!options.recipe.empty()) own_recipes.insert(folder.file(options.recipe));
     add_setting_routes(*this);
@@ -32,6 +33,7 @@ ServerState::ServerState(const ServerOptions& given)
     add_job_routes(*this);
     add_layer_routes(*this);
     add_output_routes(*this);
+    add_print_routes(*this);
     if (options.has_page) add_page_routes(*this);
 }
 
@@ -47,6 +49,9 @@ void serve_http(const ServerOptions& options, const CancelToken& cancel,
     std::atomic<bool> has_ended = false;
     std::thread watch([&] {
         while (!cancel.cancelled() && !has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        if (state.printer.is_printing() && options.on_delay)
+            options.on_delay("stopping the print; wait until its heaters are off");
+        state.printer.end();  // first, so that pages still see how it ends
         state.jobs.cancel_all();
         state.events.end();
         state.http.stop();

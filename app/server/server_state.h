@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <semaphore>
 #include <set>
@@ -11,6 +12,7 @@
 #include "app/server/http_server.h"
 #include "app/server/job_store.h"
 #include "app/server/output_store.h"
+#include "app/server/served_printer.h"
 
 namespace lamella {
 
@@ -21,6 +23,8 @@ struct ServerOptions {
     bool has_page = false;               ///< serves the studio's page
     int threads = 0;                     ///< for layers; 0: one per core
     std::size_t jobs = 4;                ///< that are held
+    /// Told why the server does not end at once; may be empty.
+    std::function<void(const std::string& text)> on_delay{};
 };
 
 /// Limits the requests that compute at the same time, each of which may use all threads.
@@ -46,6 +50,7 @@ struct ServerState {
     EventHub events;
     JobStore jobs;
     OutputStore outputs;
+    ServedPrinter printer;
     ComputeTurn::Turns turns;
     std::mutex own_recipes_mutex;
     std::set<std::filesystem::path> own_recipes;  ///< which may be written again
@@ -65,9 +70,11 @@ void add_recipe_routes(ServerState& state);
 void add_job_routes(ServerState& state);
 void add_layer_routes(ServerState& state);
 void add_output_routes(ServerState& state);
+void add_print_routes(ServerState& state);
 void add_page_routes(ServerState& state);
 
-/// Serves until `cancel` is set; `on_ready` is told the address of the page or of the interface.
+/// Serves until `cancel` is set, and until a print that runs then was stopped with its heaters off.
+/// `on_ready` is told the address of the page or of the interface.
 void serve_http(const ServerOptions& options, const CancelToken& cancel,
                 const std::function<void(const std::string& address)>& on_ready);
 

@@ -32,6 +32,8 @@ void LineSender::receive(std::string_view bytes, double now) {
         if (stop_) continue;
         const Reply reply = parse_reply(*line);
         if (reply.temperatures) temperatures_ = *reply.temperatures;
+        if (const std::string text = message_of(reply); listener_.on_message && !text.empty())
+            listener_.on_message(text);
         handle(reply, now);
     }
     if (!stop_) feed(now);

@@ -60,6 +60,8 @@ struct SenderListener {
     /// Called when the printer asks the host for an action: "pause", "paused", "resume", "resumed", "cancel",
     /// "disconnect".
     std::function<void(const std::string& action)> on_action{};
+    /// Called with what the printer tells people (see message_of).
+    std::function<void(const std::string& text)> on_message{};
 };
 
 /// A request to a person that the printer is waiting for.

@@ -36,6 +36,7 @@ PrintLink::PrintLink(LinkSettings settings)
         };
     }
     listener.on_action = [this](const std::string& action) { heed(action); };
+    listener.on_message = settings_.on_message;
     if (settings_.grbl) {
         sender_ = std::make_unique<GrblSender>(settings_.sender, std::move(listener));
     } else {
@@ -130,13 +131,17 @@ LinkStatus PrintLink::status() const {
     return status_;
 }
 
-std::string PrintLink::end_words() {
+std::exception_ptr PrintLink::end_reason() {
     if (thread_.joinable()) {
         stop();
         thread_.join();
     }
+    return failure_;
+}
+
+std::string PrintLink::end_words() {
     try {
-        if (failure_) std::rethrow_exception(failure_);
+        if (const std::exception_ptr reason = end_reason()) std::rethrow_exception(reason);
     } catch (const std::exception& error) {
         return error.what();
     }
@@ -217,7 +222,7 @@ void PrintLink::heed(const std::string& action) {
 void PrintLink::begin_pause(bool by_printer) {
     if (paused_ || phase_ != Phase::printing || !sender_->connected()) return;
     if (!by_printer && !sender_->can_pause() && current_at_ >= current_.lines.size())
-        return notify("too late to pause: the printer has all lines of the job; s or x stops it");
+        return notify("too late to pause: the printer has all lines of the job; it can only be stopped");
     paused_ = true;
     sender_->hold(true);
     if (by_printer) return;

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -37,6 +39,8 @@ struct LinkSettings {
     double park_after = 0.5;    ///< time without a layer after which the nozzle is parked, s
     double reconnect_for = 60;  ///< time during which a lost port is tried again, s
     const CancelToken* cancel = nullptr;
+    /// Called by the link's thread with what the printer tells people; must not block.
+    std::function<void(const std::string& text)> on_message{};
 };
 
 /// Lines that belong together, usually a layer. Sending starts only when all of them are there.
@@ -129,8 +133,10 @@ class PrintLink {
     /// `!` and a reset on GRBL, otherwise by resetting the board over DTR.
     void halt() { request(halting_); }
     LinkStatus status() const;
-    /// Stops the print if it is still running, waits for its end and returns why it ended and in which state
-    /// it left the machine. Empty if the print did not fail or never started.
+    /// Stops the print if it is still running, waits for its end and returns why it ended. Null if the print
+    /// did not fail or never started.
+    std::exception_ptr end_reason();
+    /// The same in words, with the state in which the machine was left. Empty for null.
     std::string end_words();
 
   private:

@@ -191,6 +191,24 @@ Reply parse_reply(std::string_view line) {
     return reply;
 }
 
+std::string message_of(const Reply& reply) {
+    const auto behind = [&](std::string_view front) {
+        const std::string_view text = reply.text;
+        return text.starts_with(front) ? std::string(trim_blanks(text.substr(front.size()))) : std::string();
+    };
+    switch (reply.kind) {
+        case ReplyKind::error:
+        case ReplyKind::fatal:
+            return reply.text;
+        case ReplyKind::action:
+            return behind("notification ");
+        case ReplyKind::other:
+            return behind("echo:");
+        default:
+            return {};
+    }
+}
+
 std::optional<std::string> ReplyLines::next() {
     constexpr std::size_t longest = 512;
     while (at_ < waiting_.size()) {

@@ -48,6 +48,9 @@ struct Reply {
 /// garbled answer is no answer: a line with a single wrong byte in its `ok` is `other`.
 Reply parse_reply(std::string_view line);
 
+/// Returns what a reply tells a person: errors, `echo:` lines and notifications. Empty for all others.
+std::string message_of(const Reply& reply);
+
 /// Splits received bytes into lines, regardless of how they were chunked. Drops carriage returns. Replaces
 /// non-ASCII bytes by '?', so that no word becomes valid by losing a byte.
 class ReplyLines {

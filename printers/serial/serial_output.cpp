@@ -150,6 +150,15 @@ class SerialOutput : public GcodeOutput {
 
 }  // namespace
 
+void suit_printer(LinkSettings& settings, const PrinterProfile& printer) {
+    const GcodeProfile& gcode = printer.gcode;
+    settings.grbl = gcode.flavour == Flavour::grbl;
+    settings.park_y = printer.filament.bed_y;
+    settings.highest = printer.filament.bed_z;
+    settings.motion.acceleration = settings.motion.travel_acceleration = gcode.acceleration;
+    settings.motion.junction_deviation = gcode.junction_deviation;
+}
+
 std::unique_ptr<GcodeOutput> make_serial_output(std::shared_ptr<PrintLink> link, const LinkSettings& settings,
                                                 SerialOutputOptions options) {
     return std::make_unique<SerialOutput>(std::move(link), settings, std::move(options));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "printers/common/profile.h"
 #include "printers/gcode/gcode_output.h"
 #include "printers/serial/print_chunk.h"
 #include "printers/serial/print_link.h"
@@ -18,6 +19,9 @@ struct SerialOutputOptions {
     std::optional<double> z{};  ///< height of the nozzle when a print is resumed; default: from the journal
     std::function<void(const std::string&)> warn{};  ///< called with warnings for the user
 };
+
+/// Sets dialect, parking position, height and motion limits of a printer of G-code.
+void suit_printer(LinkSettings& settings, const PrinterProfile& printer);
 
 /// Makes an output that sends a job over a link. A layer is complete when the printer has answered all its
 /// lines. A resumed print continues with the first incomplete layer: the printer is heated, X and Y are

@@ -6,6 +6,8 @@
 #include <linux/serial.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -139,6 +141,21 @@ bool SerialPort::reset_board() {
     if (ioctl(descriptor_, TIOCMBIC, &dtr) != 0) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     return ioctl(descriptor_, TIOCMBIS, &dtr) == 0;
+}
+
+bool is_serial_line(const std::string& path) {
+    std::error_code error;
+    const fs::path device = fs::canonical(path, error);
+    struct stat about {};
+    if (error || !device.string().starts_with("/dev/") || stat(device.c_str(), &about) != 0 ||
+        !S_ISCHR(about.st_mode))
+        return false;
+    constexpr unsigned first_pty = 136, last_pty = 143, consoles = 4, own_terminal = 5, serial_consoles = 64;
+    const unsigned kind = major(about.st_rdev), number = minor(about.st_rdev);
+    if (kind >= first_pty && kind <= last_pty) return true;
+    if (kind == own_terminal || (kind == consoles && number < serial_consoles)) return false;
+    const std::string entry = "/sys/dev/char/" + std::to_string(kind) + ":" + std::to_string(number);
+    return fs::canonical(entry + "/subsystem", error).filename() == "tty";
 }
 
 std::string lasting_name(const std::string& path) {

@@ -40,6 +40,10 @@ class SerialPort {
     int descriptor_ = -1;
 };
 
+/// Returns true if a path leads to a serial line or a pseudo-terminal below /dev. Opens nothing, because some
+/// devices act when they are opened. The console and the terminal of this process are none.
+bool is_serial_line(const std::string& path);
+
 /// Returns a port name that survives replugging: the device's link in /dev/serial/by-id, or the path itself.
 std::string lasting_name(const std::string& path);
 

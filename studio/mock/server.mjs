@@ -9,6 +9,7 @@ import { gzipSync } from "node:zlib";
 import { examples, find_setting, machines, table } from "./catalog.mjs";
 import { build_job, check, objection, read_values } from "./jobs.mjs";
 import * as draw from "./layers.mjs";
+import { make_printer, ports } from "./print.mjs";
 import { edit_toml } from "./toml.mjs";
 
 const dist = fileURLToPath(new URL("../dist/", import.meta.url));
@@ -78,6 +79,13 @@ export function make_mock({
         }
     };
 
+    const printer = make_printer(
+        (status, message) => {
+            throw new Refusal(status, message);
+        },
+        (event, data) => new Set(state.streams.values()).forEach((session) => send_event(session, event, data)),
+    );
+
     const routes = {
         "GET /api/version": () => ({
             name: "lamella",
@@ -89,6 +97,7 @@ export function make_mock({
         "GET /api/settings": () => table,
         "GET /api/machines": () => machines,
         "GET /api/examples": () => examples,
+        "GET /api/ports": () => ports,
         "GET /api/recipe": () => ({ text: state.text, path: state.path, saved: state.saved }),
         "PUT /api/recipe": (_, body) => {
             state.text = body.text;
@@ -148,7 +157,10 @@ export function make_mock({
         const ask = (name, fallback) => Number(url.searchParams.get(name) ?? fallback);
         if (method === "POST" && rest[0] === "outputs")
             return start_output(job, JSON.parse(await read_body(request)));
+        if (method === "POST" && rest[0] === "print")
+            return printer.start(job, JSON.parse(await read_body(request)));
         if (method === "DELETE") return {};
+        if (rest[0] === "print") return printer.outlook(job);
         const tag = `"${identity}-${createHash("sha256")
             .update(url.pathname + url.search)
             .digest("hex")
@@ -264,6 +276,8 @@ export function make_mock({
         let reply;
         if (/^\/api\/jobs\/./.test(url.pathname))
             reply = await job_reply(url, request.method, request, response);
+        else if (/^\/api\/print(\/|$)/.test(url.pathname))
+            reply = printer.reply(request.method, url.pathname.split("/")[3] ?? "");
         else if (url.pathname.startsWith("/api/outputs/"))
             reply = output_reply(url, request.method, response);
         else {
@@ -287,7 +301,8 @@ export function make_mock({
             response.end(JSON.stringify({ message: error.message, mistakes: error.mistakes }));
         });
     });
-    return { server, token, state };
+    server.on("close", printer.stop);
+    return { server, token, state, printer };
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

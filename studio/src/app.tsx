@@ -4,6 +4,7 @@ import { Form } from "./form/form";
 import { CurvePane } from "./layers/curve";
 import { LayerPane } from "./layers/pane";
 import { MakePanel } from "./make/make_panel";
+import { PrintPanel } from "./print/print_panel";
 import { Header } from "./shell/header";
 import { Messages } from "./shell/messages";
 import { Segments } from "./shell/segments";
@@ -36,7 +37,7 @@ function DesignPanel() {
     );
 }
 
-const panels = { design: DesignPanel, check: CheckPanel, make: MakePanel };
+const panels = { design: DesignPanel, check: CheckPanel, make: MakePanel, print: PrintPanel };
 
 function Workbench() {
     const Panel = panels[tab.value];

@@ -6,6 +6,7 @@ import "uplot/dist/uPlot.min.css";
 import { App } from "./app";
 import { check_progress } from "./check/check_panel";
 import { ask_again, take_output } from "./make/outputs";
+import { ask_for_print, take_message, take_print } from "./print/print";
 import { get_examples, get_machines, get_recipe, get_table, get_version } from "./server/api";
 import { away, listen } from "./server/events";
 import { Failure } from "./server/http";
@@ -58,6 +59,7 @@ async function load(): Promise<boolean> {
             ready.value = true;
         });
         refresh();
+        void ask_for_print();
     } catch (error) {
         if (error instanceof Failure && error.status === 0) away.value = true;
         report(error);
@@ -84,12 +86,15 @@ const listener = {
         }
         refresh(); // a server that was started anew has lost its jobs
         void ask_again();
+        void ask_for_print();
     },
     progress: ({ what, done, of, text: doing }: Progress) => {
         if (what === "build") build_progress.value = { done, of, text: doing };
         else if (what === "check" && check_progress.value) check_progress.value = { done, of };
     },
     output: take_output,
+    print: take_print,
+    print_message: take_message,
 };
 void load().then((welcome) => {
     if (welcome) listen(listener);

@@ -1,16 +1,40 @@
-// The program itself behind the page, in a folder of its own: LAMELLA names it.
+// The program itself behind the page, as LAMELLA names it.
 import { spawn } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { patience } from "./studio.mjs";
 
-export const lamella = process.env.LAMELLA;
 export const models = process.env.LAMELLA_MODELS;
+export const skip = process.env.LAMELLA ? false : "LAMELLA is not set";
 export const token = "0123456789abcdef0123";
-export const skip = lamella ? false : "LAMELLA is not set";
 
-/** A running studio with a page on it. */
+/** Starts the studio; resolves once it listens. */
+export async function start_program(folder, recipes = [], port = 0) {
+    const program = spawn(process.env.LAMELLA, ["studio", ...recipes, "--folder", folder, "--port", `${port}`,
+        "--token", token]);
+    const address = await new Promise((resolve, reject) => {
+        let text = "";
+        program.stdout.on("data", (data) => {
+            text += data;
+            const found = text.match(/http:\/\/[^\s]+/);
+            if (found) resolve(found[0]);
+        });
+        program.on("exit", (code) => reject(new Error(`the studio ended with ${code}`)));
+    });
+    return {
+        address,
+        port: Number(new URL(address).port),
+        runs: () => program.exitCode === null && program.signalCode === null,
+        end: (signal = "SIGINT") => {
+            const ended = new Promise((resolve) => program.on("exit", resolve));
+            program.kill(signal);
+            return ended;
+        },
+    };
+}
+
+/** A running studio in a folder of its own, with a page on it. */
 export class Program {
     folder = mkdtempSync(join(tmpdir(), "studio-"));
     errors = [];
@@ -22,33 +46,15 @@ export class Program {
         return path;
     }
 
-    /** Starts the studio; resolves to its address once it listens. */
-    async start(recipe, at = 0) {
-        const named = recipe ? [join(this.folder, recipe)] : [];
-        const options = ["--folder", this.folder, "--port", `${at}`, "--token", token];
-        this.process = spawn(lamella, ["studio", ...named, ...options]);
-        const address = await new Promise((resolve, reject) => {
-            let text = "";
-            this.process.stdout.on("data", (data) => {
-                text += data;
-                const found = text.match(/http:\/\/[^\s]+/);
-                if (found) resolve(found[0]);
-            });
-            this.process.on("exit", (code) => reject(new Error(`the studio ended with ${code}`)));
-        });
-        this.port = Number(new URL(address).port);
-        return address;
-    }
-
     async open(browser, recipe, options = {}) {
-        const address = await this.start(recipe);
+        this.program = await start_program(this.folder, [join(this.folder, recipe)]);
         this.page = await browser.newPage({ viewport: { width: 1400, height: 850 }, ...options });
         this.page.setDefaultTimeout(patience);
         this.page.on("pageerror", (error) => this.errors.push(error.stack ?? error.message));
         this.page.on("console", (message) => {
             if (/Content Security Policy|Refused to/.test(message.text())) this.errors.push(message.text());
         });
-        await this.page.goto(address);
+        await this.page.goto(this.program.address);
         return this.page;
     }
 
@@ -75,17 +81,10 @@ export class Program {
         return (await this.state()).text;
     }
 
-    async end(signal = "SIGINT") {
-        if (this.process?.exitCode !== null) return;
-        const ended = new Promise((resolve) => this.process.on("exit", resolve));
-        this.process.kill(signal);
-        await ended;
-    }
-
     /** Ends all, and returns the errors of the page. */
     async close() {
         await this.page?.close();
-        await this.end();
+        if (this.program?.runs()) await this.program.end();
         rmSync(this.folder, { recursive: true });
         return this.errors;
     }

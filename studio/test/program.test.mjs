@@ -1,45 +1,28 @@
 // The page against the program itself: LAMELLA names it. From a dropped model to a file with the command's bytes.
 import assert from "node:assert/strict";
-import { execFileSync, spawn } from "node:child_process";
+import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
+import { start_program, token } from "./program.mjs";
 import { box_stl, open_browser, patience } from "./studio.mjs";
 
 const lamella = process.env.LAMELLA;
 const models = process.env.LAMELLA_MODELS;
-const token = "0123456789abcdef0123";
 const skip = lamella ? false : "LAMELLA is not set";
 
 let browser, folder, program, page, errors, port;
 
-/** Starts the studio; resolves once it listens. */
-async function start_program(recipe, at = 0) {
-    const started = spawn(lamella, ["studio", ...(recipe ? [recipe] : []), "--folder", folder, "--port", `${at}`,
-        "--token", token]);
-    const address = await new Promise((resolve, reject) => {
-        let text = "";
-        started.stdout.on("data", (data) => {
-            text += data;
-            const found = text.match(/http:\/\/[^\s]+/);
-            if (found) resolve(found[0]);
-        });
-        started.on("exit", (code) => reject(new Error(`the studio ended with ${code}`)));
-    });
-    program = started;
-    port = Number(new URL(address).port);
-    return address;
-}
-
-function end_program(signal = "SIGINT") {
-    const ended = new Promise((resolve) => program.on("exit", resolve));
-    program.kill(signal);
-    return ended;
+/** Starts the studio, at a port or any; returns its address. */
+async function start(recipe, at = 0) {
+    program = await start_program(folder, recipe ? [recipe] : [], at);
+    port = program.port;
+    return program.address;
 }
 
 async function open(recipe) {
-    const address = await start_program(recipe);
+    const address = await start(recipe);
     page = await browser.newPage({ viewport: { width: 1400, height: 850 } });
     page.setDefaultTimeout(patience);
     errors = [];
@@ -89,7 +72,7 @@ afterEach(async () => {
         page = undefined;
         assert.deepEqual(errors, []);
     }
-    if (program?.exitCode === null) await end_program();
+    if (program?.runs()) await program.end();
     rmSync(folder, { recursive: true });
 });
 
@@ -219,9 +202,9 @@ test("the program ends and starts again: the page goes on", { skip }, async () =
     await open(join(folder, "part.toml"));
     await shown();
     const at = port;
-    await end_program("SIGKILL");
+    await program.end("SIGKILL");
     await until(() => window.__studio.state.away);
-    await start_program(join(folder, "part.toml"), at);
+    await start(join(folder, "part.toml"), at);
     await until(() => !window.__studio.state.away);
     await page.fill("#field-foam-0-cell", "4");
     await page.keyboard.press("Enter");

@@ -8,8 +8,13 @@ import type {
     Example,
     Job,
     Machine,
+    Outlook,
     Output,
     Paths,
+    Port,
+    Print,
+    PrintMessage,
+    PrintRequest,
     Report,
     Table,
     Values,
@@ -104,3 +109,14 @@ export const start_output = (job: Job, file: string) =>
 
 export const get_output = (id: number) => get_json<Output>(`/api/outputs/${id}`);
 export const remove_output = (id: number) => get_json<object>(`/api/outputs/${id}`, { method: "DELETE" });
+
+export const get_ports = () => get_json<Port[]>("/api/ports");
+export const get_outlook = (job: Job, signal: Signal) => get_json<Outlook>(of_job(job, "print"), { signal });
+export const start_print = (job: Job, request: PrintRequest) =>
+    get_json<Print>(of_job(job, "print"), { method: "POST", json: request });
+export const get_print = () => get_json<Print | { state: "none" }>("/api/print");
+export const get_print_messages = () => get_json<PrintMessage[]>("/api/print/messages");
+export const order_print = (what: "pause" | "resume" | "stop" | "halt") =>
+    get_json<Print>(`/api/print/${what}`, { method: "POST", json: {} });
+export const choose_button = (button: number) =>
+    get_json<Print>("/api/print/choose", { method: "POST", json: { button } });

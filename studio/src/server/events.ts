@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { with_token } from "./http";
 import { session } from "./token";
-import type { Output, Progress } from "./types";
+import type { Output, Print, PrintMessage, Progress } from "./types";
 
 /** Whether the line to the server is broken. EventSource tries again by itself. */
 export const away = signal(false);
@@ -12,6 +12,8 @@ export interface Listener {
     back(): void;
     progress(progress: Progress): void;
     output(output: Output): void;
+    print(print: Print): void;
+    print_message(message: PrintMessage): void;
 }
 
 /** How long a closed line stays closed until it is opened anew, ms. */
@@ -26,6 +28,10 @@ export function listen(listener: Listener): void {
     });
     stream.addEventListener("progress", (event) => listener.progress(JSON.parse(event.data) as Progress));
     stream.addEventListener("output", (event) => listener.output(JSON.parse(event.data) as Output));
+    stream.addEventListener("print", (event) => listener.print(JSON.parse(event.data) as Print));
+    stream.addEventListener("print_message", (event) =>
+        listener.print_message(JSON.parse(event.data) as PrintMessage),
+    );
     stream.addEventListener("error", () => {
         away.value = true;
         if (stream.readyState !== EventSource.CLOSED) return;

@@ -174,6 +174,67 @@ export interface Output {
     message: string;
 }
 
+export interface Port {
+    path: string;
+    /** A name that survives replugging; may be empty. */
+    by_id: string;
+    description: string;
+}
+
+/** Whether a job can be printed, and what is left of a stopped print of its name. */
+export interface Outlook {
+    accepted: boolean;
+    message: string;
+    left: { journal: string; next_layer: number | null; is_of_job: boolean } | null;
+}
+
+export interface PrintRequest {
+    to: { serial: string; baud: number; reset?: boolean; ping_pong?: boolean };
+    park?: [number, number];
+    resume?: boolean;
+    discard_journal?: boolean;
+}
+
+/** Degrees Celsius; a target is 0 where the heater is off. */
+export interface Temperatures {
+    nozzle: number;
+    nozzle_target: number;
+    bed: number;
+    bed_target: number;
+}
+
+export interface Print {
+    state: "connecting" | "printing" | "paused" | "stopping" | "done" | "stopped" | "failed";
+    print: number;
+    job: string;
+    name: string;
+    machine: string;
+    to: { serial: string; baud: number };
+    firmware: string;
+    halts_at_once: boolean;
+    /** What keeps the print from going on, such as "heating". */
+    doing: string;
+    question: { text: string; buttons: string[] } | null;
+    layers: number;
+    layer: number | null;
+    layers_computed: number;
+    share: number | null;
+    seconds: number;
+    seconds_left: number | null;
+    lines: number;
+    lines_a_second: number;
+    bytes_a_second: number;
+    temperatures: Temperatures | null;
+    resumable: boolean;
+    message: string;
+}
+
+export interface PrintMessage {
+    print: number;
+    number: number;
+    text: string;
+}
+
 export interface Progress {
     what: "build" | "check" | "output";
     id: number | null;

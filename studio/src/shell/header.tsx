@@ -11,6 +11,7 @@ const tabs: { word: Tab; label: string }[] = [
     { word: "design", label: "Design" },
     { word: "check", label: "Check" },
     { word: "make", label: "Make" },
+    { word: "print", label: "Print" },
 ];
 
 function Tabs() {

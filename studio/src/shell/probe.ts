@@ -1,6 +1,7 @@
 // window.__studio: what tests and the curious may read of the page.
 import { faults } from "../check/faults";
 import { lines, picture } from "../layers/picture";
+import { messages, print } from "../print/print";
 import { away } from "../server/events";
 import { building, job, layer, mistakes, tab, text } from "../state/store";
 import { shown_voxels, stage } from "../view/shown";
@@ -33,6 +34,8 @@ export const probe: Probe = {
             building: building.value,
             away: away.value,
             tab: tab.value,
+            print: print.value,
+            print_messages: messages.value.map((one) => one.text),
         };
     },
 };

@@ -1,5 +1,6 @@
 // The status line: what the recipe makes, in numbers, and what is wrong with it.
 import { curve, volume_of } from "../layers/curve";
+import { PrintWord } from "../print/status_word";
 import {
     build_progress,
     building,
@@ -64,6 +65,7 @@ export function StatusLine() {
         <footer class="status">
             <Numbers />
             <span class="grow" />
+            <PrintWord />
             <span class="state" role="status">
                 {building.value ? (
                     `${progress?.text || "computing"}${share}…`

@@ -26,7 +26,7 @@ export const opened = signal(true);
 
 export const report_of_check = signal<{ job: string; report: Report } | null>(null);
 
-export type Tab = "design" | "check" | "make";
+export type Tab = "design" | "check" | "make" | "print";
 export const tab = signal<Tab>("design");
 /** Whether the start page is shown instead of the recipe. */
 export const starting = signal(false);

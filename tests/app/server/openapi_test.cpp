@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tests/app/server/described_form.h"
 #include "tests/app/server/running_server.h"
 
 namespace openapi_test {
@@ -11,50 +12,6 @@ using namespace lamella;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const Json& resolved(const Json& document, const Json& schema) {
-    if (!schema.contains("$ref")) return schema;
-    const std::string name = schema["$ref"].get<std::string>();
-    return document["components"]["schemas"].at(name.substr(name.rfind('/') + 1));
-}
-
-bool is_of_type(const Json& value, const std::string& type) {
-    if (type == "object") return value.is_object();
-    if (type == "array") return value.is_array();
-    if (type == "string") return value.is_string();
-    if (type == "boolean") return value.is_boolean();
-    if (type == "integer") return value.is_number_integer();
-    if (type == "number") return value.is_number();
-    return type == "null" && value.is_null();
-}
-
-/// Returns where a value does not fit its schema; empty where it does.
-std::string misfit(const Json& document, const Json& given, const Json& value, const std::string& place) {
-    const Json& schema = resolved(document, given);
-    const Json types = schema["type"].is_array() ? schema["type"] : Json::array({schema["type"]});
-    if (std::ranges::none_of(types,
-                             [&](const Json& type) { return is_of_type(value, type.get<std::string>()); }))
-        return place + ": " + value.dump().substr(0, 60) + " is no " + types.dump();
-    if (schema.contains("enum") && std::ranges::find(schema["enum"], value) == schema["enum"].end())
-        return place + ": " + value.dump() + " is none of " + schema["enum"].dump();
-    if (value.is_object() && schema.contains("required")) {
-        for (const Json& name : schema["required"])
-            if (!value.contains(name.get<std::string>())) return place + ": has no " + name.dump();
-        for (const auto& [name, member] : value.items()) {
-            if (!schema["properties"].contains(name)) continue;
-            const std::string wrong =
-                misfit(document, schema["properties"][name], member, place + "." + name);
-            if (!wrong.empty()) return wrong;
-        }
-    }
-    if (value.is_array() && schema.contains("items")) {
-        for (const Json& item : value) {
-            const std::string wrong = misfit(document, schema["items"], item, place + "[]");
-            if (!wrong.empty()) return wrong;
-        }
-    }
-    return "";
-}
 
 std::string upper(std::string text) {
     std::ranges::transform(text, text.begin(),
@@ -116,8 +73,14 @@ TEST_CASE("replies have the form that the description gives them", "[server]") {
     check("get", "/api/outputs/{output}", nullptr);
     check("delete", "/api/outputs/{output}", nullptr);
     check("get", "/api/outputs/{output}", nullptr);
+    check("post", "/api/jobs/{job}/print", Json::object());
+    check("post", "/api/jobs/{job}/print", {{"to", {{"serial", "/dev/none"}}}});
     check("delete", "/api/jobs/{job}", nullptr);
     check("get", "/api/jobs/{job}/layers/{layer}/contours", nullptr);
+    for (const char* order : {"pause", "resume", "stop", "halt"})
+        check("post", std::string("/api/print/") + order, nullptr);
+    check("post", "/api/print/choose", {{"button", 0}});
+    check("post", "/api/print/choose", {{"button", "first"}});
 }
 
 }  // namespace openapi_test

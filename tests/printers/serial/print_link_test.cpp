@@ -235,6 +235,22 @@ TEST_CASE("GRBL: a pause of the job is told and ended, a stop holds before it re
     }
 }
 
+TEST_CASE("only a path to a serial line is one, and none is opened to find out") {
+    PtyMachine machine({});
+    CHECK(is_serial_line(machine.path()));
+    char folder[] = "/tmp/lamella_test_XXXXXX";
+    REQUIRE(mkdtemp(folder) != nullptr);
+    const std::string link = std::string(folder) + "/port";
+    std::filesystem::create_symlink(machine.path(), link);
+    CHECK(is_serial_line(link));
+    for (const char* path :
+         {"/dev/null", "/dev/tty", "/dev/ptmx", "/dev", "/etc/passwd", "/dev/no-such-port", ""}) {
+        INFO(path);
+        CHECK(!is_serial_line(path));
+    }
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("a link that is too slow for a job is told beforehand") {
     CHECK(link_warning({500, 14000}, 250000).empty());
     CHECK(link_warning({500, 14000}, 115200).find("14000 bytes/s") != std::string::npos);

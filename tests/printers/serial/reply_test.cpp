@@ -199,4 +199,17 @@ TEST_CASE("GRBL's version is read from its build line") {
     CHECK(parse_reply("[VER:0.9]").text == "0.9");
 }
 
+TEST_CASE("what a machine tells people is told apart from answers and reports") {
+    CHECK(message_of(parse_reply("echo:  Unknown command: \"G999\"")) == "Unknown command: \"G999\"");
+    CHECK(message_of(parse_reply("Error:Thermal Runaway")) == "Error:Thermal Runaway");
+    CHECK(message_of(parse_reply("Error:no such macro")) == "Error:no such macro");
+    CHECK(message_of(parse_reply("//action:notification Heating")) == "Heating");
+    for (const char* line : {"ok", "ok T:21.5 /210.0 B:60.0 /60.0", " T:25.00 /0.00 B:25.00 /0.00",
+                             "Resend: 5", "echo:busy: processing", "Error:checksum mismatch, Last Line: 1",
+                             "//action:pause", "X:10.00 Y:0.00 Count X:800", "S_XYZ:5", "echo:", "start"}) {
+        INFO(line);
+        CHECK(message_of(parse_reply(line)).empty());
+    }
+}
+
 }  // namespace reply_test
