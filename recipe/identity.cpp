@@ -12,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "procedural/volume/nrrd_header.h"
+#include "recipe/inputs/input_cache.h"
 #include "recipe/settings.h"
 
 namespace lamella {
@@ -76,13 +77,14 @@ std::string hash_file(const std::string& path) {
     return hash.hex();
 }
 
-std::string hash_input(const std::string& path) {
+std::string hash_input(const std::string& path, InputCache* cache) {
     Fnv128 hash;
-    for (const std::string& file : input_files(path)) hash.add(hash_file(file) + "\n");
+    for (const std::string& file : input_files(path))
+        hash.add((cache != nullptr ? cache->hash(file) : hash_file(file)) + "\n");
     return hash.hex();
 }
 
-std::string job_identity(const Recipe& recipe) {
+std::string job_identity(const Recipe& recipe, InputCache* cache) {
     Fnv128 hash;
     hash.add("lamella " LAMELLA_VERSION "\n");
     for (const Section& section : sections()) {
@@ -101,7 +103,7 @@ std::string job_identity(const Recipe& recipe) {
             for (const Setting& setting : settings()) {
                 if (setting.section != section.name) continue;
                 std::string value = format_value(setting.load(recipe, entry));
-                if (setting.type == ValueType::path && !value.empty()) value = hash_input(value);
+                if (setting.type == ValueType::path && !value.empty()) value = hash_input(value, cache);
                 hash.add(setting.name() + "=" + value + "\n");
             }
         }

@@ -10,6 +10,8 @@
 
 namespace lamella {
 
+class InputCache;
+
 /// FNV-1a with 128 bits (Fowler, Noll, Vo: offset basis and prime as published). It detects accidental
 /// changes; it does not protect against forgery.
 class Fnv128 {
@@ -26,11 +28,12 @@ class Fnv128 {
 /// Returns the hash of a file's bytes. Throws InputError when it cannot be read.
 std::string hash_file(const std::string& path);
 
-/// Returns the hash of an input: a file, a folder or pattern of pages, a header with its data.
-std::string hash_input(const std::string& path);
+/// Returns the hash of an input: a file, a folder or pattern of pages, a header with its data. `cache`: what
+/// is known of files; may be null.
+std::string hash_input(const std::string& path, InputCache* cache = nullptr);
 
 /// Returns the job's identity: the hash of the program version and every setting's value (an input counts by
-/// its bytes, not by its path).
-std::string job_identity(const Recipe& recipe);
+/// its bytes, not by its path). `cache` as in hash_input().
+std::string job_identity(const Recipe& recipe, InputCache* cache = nullptr);
 
 }  // namespace lamella

@@ -17,7 +17,7 @@ procedural/elasticity procedural/optimization procedural/appearance procedural/t
 procedural/pattern procedural/lattice
 printers/common printers/polygons printers/readers printers/archive printers/toolpath printers/masks printers/vector
 printers/gcode printers/serial printers
-recipe/pieces recipe recipe/keys recipe/layering recipe/build recipe/placement recipe/structure recipe/output
+recipe/pieces recipe recipe/keys recipe/inputs recipe/layering recipe/build recipe/placement recipe/structure recipe/output
 bindings
 app/console app/ranks app/charts app/reports app/server app/commands
 """.split()
@@ -25,7 +25,7 @@ app/console app/ranks app/charts app/reports app/server app/commands
 APART = [("procedural", "printers")]
 # recipe/ names kinds that recipe/build makes, and recipe/build reads what recipe/ holds; the body that it builds may be
 # one that recipe/structure optimises.
-TOGETHER = {"recipe", "recipe/keys", "recipe/build", "recipe/placement", "recipe/structure"}
+TOGETHER = {"recipe", "recipe/keys", "recipe/inputs", "recipe/build", "recipe/placement", "recipe/structure"}
 MODULES = {"engine/io/modules": "engine/io", "app/ranks/modules": "app/ranks"}
 MOST_SOURCES = 45
 

@@ -56,12 +56,13 @@ void JobStore::hold(std::shared_ptr<const ServedJob> job) {
 std::shared_ptr<const ServedJob> JobStore::build(const std::string& text, const std::string& session,
                                                  std::int64_t sequence) {
     const std::shared_ptr<CancelToken> cancel = begin(session, sequence);
-    const std::string id = served_job_id(read_served_recipe(text, folder_), text);
+    const std::string id = served_job_id(read_served_recipe(text, folder_), text, &inputs_);
     end_work(session, sequence);  // of a recipe with mistakes the page shows the job before
     if (auto job = held(id)) return job;
     BuildControl control;
     control.threads = threads_;
     control.cancel = cancel.get();
+    control.inputs = &inputs_;
     control.on_progress = [&](const std::string& what, std::int64_t done, std::int64_t of) {
         events_.send(session, "progress",
                      {{"what", "build"}, {"id", nullptr}, {"done", done}, {"of", of}, {"text", what}});

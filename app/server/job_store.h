@@ -47,6 +47,7 @@ class JobStore {
     EventHub& events_;
     int threads_;
     std::size_t most_;
+    InputCache inputs_;
     std::mutex mutex_;
     std::list<std::shared_ptr<const ServedJob>> jobs_;  // the one used last first
     std::map<std::string, Build> builds_;               // the latest of each session

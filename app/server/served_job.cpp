@@ -39,6 +39,7 @@ OptimizeOptions search_options(const BuildControl& control) {
     options.plans = default_plan_folder();
     options.threads = control.threads;
     options.cancel = control.cancel;
+    options.inputs = control.inputs;
     if (!control.on_progress) return options;
     options.on_iteration = [&](const OptimizationStep& step, int steps) {
         control.on_progress("optimising", step.index, steps);
@@ -89,8 +90,8 @@ Recipe read_served_recipe(const std::string& text, const ServedFolder& folder) {
     }
 }
 
-std::string served_job_id(const Recipe& recipe, const std::string& text) {
-    return job_identity(recipe) + fmt::format("-{:016x}", hash_of(text));
+std::string served_job_id(const Recipe& recipe, const std::string& text, InputCache* inputs) {
+    return job_identity(recipe, inputs) + fmt::format("-{:016x}", hash_of(text));
 }
 
 std::shared_ptr<const ServedJob> build_served_job(const std::string& text, const ServedFolder& folder,
@@ -98,7 +99,7 @@ std::shared_ptr<const ServedJob> build_served_job(const std::string& text, const
     auto served = std::make_shared<ServedJob>();
     const Recipe given = read_served_recipe(text, folder);
     try {
-        served->id = served_job_id(given, text);
+        served->id = served_job_id(given, text, control.inputs);
         served->recipe = first_piece(given);
         std::vector<PlateItem> items;
         served->built = build_part(served->recipe, control, served->supports, items);

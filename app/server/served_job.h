@@ -11,6 +11,7 @@
 #include "app/server/served_folder.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/build_supports.h"
+#include "recipe/inputs/input_cache.h"
 #include "recipe/output/preview_render.h"
 
 namespace lamella {
@@ -43,6 +44,7 @@ struct BuildControl {
     int threads = 0;  ///< 0: one per core
     const CancelToken* cancel = nullptr;
     BuildProgress on_progress{};
+    InputCache* inputs = nullptr;  ///< what former builds know of files; may be null
 };
 
 /// Builds the job of a recipe's text, whose files lie in the folder, ready to be sliced: with supports,
@@ -55,6 +57,6 @@ std::shared_ptr<const ServedJob> build_served_job(const std::string& text, const
 Recipe read_served_recipe(const std::string& text, const ServedFolder& folder);
 
 /// Returns the id that the job of a recipe and its text will have.
-std::string served_job_id(const Recipe& recipe, const std::string& text);
+std::string served_job_id(const Recipe& recipe, const std::string& text, InputCache* inputs = nullptr);
 
 }  // namespace lamella

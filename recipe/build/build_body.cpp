@@ -48,7 +48,8 @@ FieldPtr named_body(const Recipe& recipe, Gradings& gradings, std::optional<Mesh
 FieldPtr build_body(const Recipe& recipe, Gradings& gradings, std::optional<MeshReport>& report,
                     const glm::dmat3& axes) {
     const PartRecipe& part = recipe.part;
-    if (!part.mesh.empty()) return read_solid(part.mesh, part.unit, part.scale, {axes, {}}, report);
+    if (!part.mesh.empty())
+        return read_solid({part.mesh, part.unit, part.scale, {axes, {}}}, report, gradings.inputs());
     return part.field.empty() ? shape_body(part, axes) : named_body(recipe, gradings, report, axes);
 }
 

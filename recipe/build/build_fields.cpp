@@ -1,4 +1,4 @@
-// Reads, closes and places meshes; makes shapes in place; bounds and places formulas.
+// Makes shapes in place; bounds and places formulas.
 #include "recipe/build/build_fields.h"
 
 #include <cmath>
@@ -9,9 +9,6 @@
 #include "engine/base/whole_file.h"
 #include "engine/formula/formula_field.h"
 #include "engine/formula/formula_vm.h"
-#include "engine/io/mesh_reader.h"
-#include "engine/mesh/mesh_field.h"
-#include "engine/mesh/mesh_repair.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "procedural/volume/volumetric_model.h"
@@ -35,7 +32,8 @@ FieldPtr shape_field(const FieldBuildContext& making) {
 
 FieldPtr mesh_field(const FieldBuildContext& making) {
     const FieldRecipe& field = making.recipe;
-    return read_solid(field.file, field.unit, field.scale, making.place, making.report);
+    return read_solid({field.file, field.unit, field.scale, making.place}, making.report,
+                      making.gradings.inputs());
 }
 
 /// Bounds a formula's inside by the recipe's box, or else the box around the part, or else the result of a
@@ -154,47 +152,6 @@ FieldPtr make_shape(Shape shape, const ShapeSizes& sizes, const Placement& place
             break;
     }
     throw InputError("this shape cannot be made from sizes");
-}
-
-SolidMesh read_closed_mesh(const std::string& path, LengthUnit unit, double scale, const Placement& place,
-                           std::optional<MeshReport>& report) {
-    MeshReadOptions options;
-    options.unit_mm = millimetres(unit);
-    MeshFile file = read_mesh(path, options);
-    if (scale != 1 || place.axes != glm::dmat3(1) || place.at != dvec3(0)) {
-        for (dvec3& vertex : file.mesh.vertices) vertex = place.axes * (vertex * scale) + place.at;
-    }
-    if (glm::determinant(place.axes) < 0) {
-        for (auto& triangle : file.mesh.triangles) std::swap(triangle[1], triangle[2]);
-    }
-    MeshReport& found = report.emplace();
-    found.path = path;
-    found.notes = std::move(file.notes);
-    SolidMesh solid = close_mesh(std::move(file.mesh), path);
-    found.vertices = solid.mesh.vertices.size();
-    found.triangles = solid.mesh.triangles.size();
-    found.caps = solid.caps;
-    found.oriented_manifold = solid.oriented_manifold;
-    found.volume = enclosed_volume(solid.mesh);
-    found.notes.insert(found.notes.end(), solid.notes.begin(), solid.notes.end());
-    return solid;
-}
-
-FieldPtr read_solid(const std::string& path, LengthUnit unit, double scale, const Placement& place,
-                    std::optional<MeshReport>& report) {
-    return make_mesh_field(read_closed_mesh(path, unit, scale, place, report));
-}
-
-double enclosed_volume(const TriangleMesh& mesh) {
-    double six_volumes = 0;
-    const dvec3 origin = mesh.vertices.empty() ? dvec3(0) : mesh.vertices.front();
-    for (const auto& triangle : mesh.triangles) {
-        const dvec3 a = mesh.vertices[triangle[0]] - origin;
-        const dvec3 b = mesh.vertices[triangle[1]] - origin;
-        const dvec3 c = mesh.vertices[triangle[2]] - origin;
-        six_volumes += glm::dot(a, glm::cross(b, c));
-    }
-    return six_volumes / 6;
 }
 
 }  // namespace lamella

@@ -14,6 +14,8 @@
 
 namespace lamella {
 
+class InputCache;
+
 /// An InputError whose message already names the recipe's key.
 struct LocatedError : InputError {
     using InputError::InputError;
@@ -53,7 +55,9 @@ struct SearchResult {
 /// The gradings of a recipe. Each is made, and its file read, on first use.
 class Gradings {
   public:
-    explicit Gradings(const Recipe& recipe) : recipe_(recipe) {}
+    /// `inputs`: what former builds know of files; may be null.
+    explicit Gradings(const Recipe& recipe, InputCache* inputs = nullptr)
+        : recipe_(recipe), inputs_(inputs) {}
 
     /// Sets the body from whose surface depths are measured. Gradings that were made of former depths stay.
     void set_body(FieldPtr body);
@@ -79,6 +83,7 @@ class Gradings {
     std::span<const RegionalNumber> overrides(const std::string& key) const;
 
     const Recipe& recipe() const { return recipe_; }
+    InputCache* inputs() const { return inputs_; }
     /// Null before set_body.
     const FieldPtr& body() const { return body_; }
 
@@ -86,6 +91,7 @@ class Gradings {
     GradingPtr named(const std::string& name);
 
     const Recipe& recipe_;
+    InputCache* inputs_;
     FieldPtr body_;
     std::optional<SearchResult> result_;
     std::map<std::string, GradingPtr> made_;

@@ -156,7 +156,7 @@ FoamPlace foam_place(const FoamRecipe& foam, const Recipe& recipe, const Box& de
 BuiltJob build_job(const Recipe& given, const OptimizeOptions& optimizing) {
     const Recipe recipe = with_known_placement(given);
     BuiltJob built;
-    Gradings gradings(recipe);
+    Gradings gradings(recipe, optimizing.inputs);
     built.body = build_body(recipe, gradings, built.mesh);
     Job& job = built.designed;
     job.bounds = built.body->bounds();
@@ -191,7 +191,7 @@ BuiltJob build_job(const Recipe& given, const OptimizeOptions& optimizing) {
     cut(recipe, optimizing, built);
     job.name = recipe.part.name;
     if (recipe.plate.piece > 0) job.name += fmt::format("_{}", recipe.plate.piece);
-    job.identity = job_identity(given);
+    job.identity = job_identity(given, optimizing.inputs);
     if (built.foam && built.foam->modulus) {
         built.modulus = modulus_report(*built.foam->modulus, *built.body);
         job.notes = modulus_lines(*built.modulus);

@@ -52,37 +52,38 @@ void add_place(std::vector<Setting>& t, const char* section) {
 }
 
 template <auto member>
-void add_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
+void add_optimize_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     t.push_back(optional_row<&Recipe::optimize, member>("optimize", key, flag, std::move(facts)));
 }
 
 void add_aims(std::vector<Setting>& t) {
-    add_row<&O::kind>(
+    add_optimize_row<&O::kind>(
         t, "kind", "--optimize-kind",
         {.fallback = "stiffness",
          .help = "What is sought: stiffness is the least compliance at a bounded volume; "
                  "lightness is the least volume, and appearance looks like a picture, both at a "
                  "bounded compliance."});
-    add_row<&O::result>(t, "result", "--optimize-result",
-                        {.fallback = "solid",
-                         .help = "What varies in the part: solid is material or void; cell and beam are that "
-                                 "number of the foam; field leaves the part to fields and gradings of kind "
-                                 "optimized."});
-    add_row<&O::volume>(t, "volume", "--optimize-volume",
-                        {.limits = {0.001, O::whole_part},
-                         .fallback = format_value(O{}.volume) + ", for lightness the whole part",
-                         .help = "Largest volume of the result, as a share of the part's."});
-    add_row<&O::volume_min>(t, "volume_min", "--optimize-volume-min",
-                            {.limits = {0, 0.999},
-                             .fallback = "0",
-                             .help = "Smallest volume of the result, as a share of the part's."});
-    add_row<&O::mass>(
+    add_optimize_row<&O::result>(
+        t, "result", "--optimize-result",
+        {.fallback = "solid",
+         .help = "What varies in the part: solid is material or void; cell and beam are that "
+                 "number of the foam; field leaves the part to fields and gradings of kind "
+                 "optimized."});
+    add_optimize_row<&O::volume>(t, "volume", "--optimize-volume",
+                                 {.limits = {0.001, O::whole_part},
+                                  .fallback = format_value(O{}.volume) + ", for lightness the whole part",
+                                  .help = "Largest volume of the result, as a share of the part's."});
+    add_optimize_row<&O::volume_min>(t, "volume_min", "--optimize-volume-min",
+                                     {.limits = {0, 0.999},
+                                      .fallback = "0",
+                                      .help = "Smallest volume of the result, as a share of the part's."});
+    add_optimize_row<&O::mass>(
         t, "mass", "--optimize-mass",
         {.unit = "g",
          .limits = {1e-6, 1e9},
          .fallback = "volume holds",
          .help = "Largest mass of the result, instead of volume. Needs the material's density."});
-    add_row<&O::compliance>(
+    add_optimize_row<&O::compliance>(
         t, "compliance", "--optimize-compliance",
         {.limits = {1, 1000},
          .fallback = format_value(O{}.compliance) + ", required by lightness",
@@ -91,27 +92,28 @@ void add_aims(std::vector<Setting>& t) {
 }
 
 void add_elements(std::vector<Setting>& t) {
-    add_row<&O::element>(t, "element", "--optimize-element",
-                         {.unit = "mm",
-                          .limits = {0, 1000},
-                          .fallback = "follows from elements",
-                          .help = "Edge of the finite elements."});
-    add_row<&O::elements>(t, "elements", "--optimize-elements",
-                          {.limits = {8, 2048},
-                           .fallback = "64, with two dimensions 200",
-                           .help = "Number of finite elements along the part's longest side."});
-    add_row<&O::dimensions>(t, "dimensions", "--optimize-dimensions",
-                            {.limits = {2, 3},
-                             .fallback = "3, for appearance 2",
-                             .help = "2: a plate in the xy plane, as thick as the part is high; the result "
-                                     "is the same at every height."});
+    add_optimize_row<&O::element>(t, "element", "--optimize-element",
+                                  {.unit = "mm",
+                                   .limits = {0, 1000},
+                                   .fallback = "follows from elements",
+                                   .help = "Edge of the finite elements."});
+    add_optimize_row<&O::elements>(t, "elements", "--optimize-elements",
+                                   {.limits = {8, 2048},
+                                    .fallback = "64, with two dimensions 200",
+                                    .help = "Number of finite elements along the part's longest side."});
+    add_optimize_row<&O::dimensions>(
+        t, "dimensions", "--optimize-dimensions",
+        {.limits = {2, 3},
+         .fallback = "3, for appearance 2",
+         .help = "2: a plate in the xy plane, as thick as the part is high; the result "
+                 "is the same at every height."});
 }
 
 void add_limits_of_shape(std::vector<Setting>& t) {
     const auto length = [&]<auto member>(const char* key, const char* flag, const char* fallback,
                                          const char* help) {
-        add_row<member>(t, key, flag,
-                        {.unit = "mm", .limits = {0, 1000}, .fallback = fallback, .help = help});
+        add_optimize_row<member>(t, key, flag,
+                                 {.unit = "mm", .limits = {0, 1000}, .fallback = fallback, .help = help});
     };
     length.operator()<&O::radius>("radius", "--optimize-radius", "1.5 elements",
                                   "Radius over which densities are averaged (density filter).");
@@ -119,82 +121,91 @@ void add_limits_of_shape(std::vector<Setting>& t) {
                                   "Smallest thickness of members (robust formulation).");
     length.operator()<&O::gap>("gap", "--optimize-gap", "0, any",
                                "Smallest width of gaps between members (robust formulation).");
-    add_row<&O::overhang>(
+    add_optimize_row<&O::overhang>(
         t, "overhang", "--optimize-overhang",
         {.fallback = "false", .help = "Let each layer of elements rest on the one below it, at 45 degrees."});
-    add_row<&O::symmetry>(t, "symmetry", "--optimize-symmetry",
-                          {.fallback = "none",
-                           .help = "Axes across which the result is mirrored by planes through the part's "
-                                   "middle: letters such as \"xy\"."});
-    add_row<&O::gravity>(t, "gravity", "--optimize-gravity",
-                         {.unit = "m/s2",
-                          .limits = {-1e6, 1e6},
-                          .fallback = "0, 0, 0",
-                          .help = "Acceleration that gives the result its own weight, such as 0, 0, -9.81. "
-                                  "Needs the material's density."});
+    add_optimize_row<&O::symmetry>(
+        t, "symmetry", "--optimize-symmetry",
+        {.fallback = "none",
+         .help = "Axes across which the result is mirrored by planes through the part's "
+                 "middle: letters such as \"xy\"."});
+    add_optimize_row<&O::gravity>(
+        t, "gravity", "--optimize-gravity",
+        {.unit = "m/s2",
+         .limits = {-1e6, 1e6},
+         .fallback = "0, 0, 0",
+         .help = "Acceleration that gives the result its own weight, such as 0, 0, -9.81. "
+                 "Needs the material's density."});
 }
 
 void add_solver(std::vector<Setting>& t) {
-    add_row<&O::iterations>(t, "iterations", "--optimize-iterations",
-                            {.limits = {1, 10000},
-                             .fallback = "100, for appearance 40",
-                             .help = "Largest number of steps; for appearance on the coarsest grid, half as "
-                                     "many on each finer one."});
-    add_row<&O::tolerance>(t, "tolerance", "--optimize-tolerance",
-                           {.limits = {0, 1},
-                            .fallback = format_value(O{}.tolerance),
-                            .help = "Largest change of a density in a step at which it stops."});
-    add_row<&O::penalty>(
+    add_optimize_row<&O::iterations>(
+        t, "iterations", "--optimize-iterations",
+        {.limits = {1, 10000},
+         .fallback = "100, for appearance 40",
+         .help = "Largest number of steps; for appearance on the coarsest grid, half as "
+                 "many on each finer one."});
+    add_optimize_row<&O::tolerance>(t, "tolerance", "--optimize-tolerance",
+                                    {.limits = {0, 1},
+                                     .fallback = format_value(O{}.tolerance),
+                                     .help = "Largest change of a density in a step at which it stops."});
+    add_optimize_row<&O::penalty>(
         t, "penalty", "--optimize-penalty",
         {.limits = {1, 10},
          .fallback = format_value(O{}.penalty),
          .help = "Exponent of the modulus over the density: higher ones avoid grey (SIMP)."});
-    add_row<&O::sharpness>(t, "sharpness", "--optimize-sharpness",
-                           {.limits = {0, 64},
-                            .fallback = format_value(O{}.sharpness),
-                            .help = "Sharpness of the projection of densities to 0 and 1 at the end; 0 for "
-                                    "no projection."});
-    add_row<&O::method>(t, "method", "--optimize-method",
-                        {.fallback = "oc, for appearance mma",
-                         .help = "How densities are updated: oc is optimality criteria, mma the method of "
-                                 "moving asymptotes."});
+    add_optimize_row<&O::sharpness>(
+        t, "sharpness", "--optimize-sharpness",
+        {.limits = {0, 64},
+         .fallback = format_value(O{}.sharpness),
+         .help = "Sharpness of the projection of densities to 0 and 1 at the end; 0 for "
+                 "no projection."});
+    add_optimize_row<&O::method>(
+        t, "method", "--optimize-method",
+        {.fallback = "oc, for appearance mma",
+         .help = "How densities are updated: oc is optimality criteria, mma the method of "
+                 "moving asymptotes."});
 }
 
 void add_appearance(std::vector<Setting>& t) {
-    add_row<&O::image>(t, "image", "--optimize-image",
-                       {.fallback = "required by appearance",
-                        .help = "Picture that the result looks like, material where it is dark; in a recipe, "
-                                "relative to the recipe's folder.",
-                        .is_path = true});
-    add_row<&O::image_size>(t, "image_size", "--optimize-image-size",
-                            {.unit = "mm",
-                             .limits = {0.01, 1e5},
-                             .fallback = "required by appearance",
-                             .help = "Length that the picture's width covers."});
-    add_row<&O::invert>(
+    add_optimize_row<&O::image>(
+        t, "image", "--optimize-image",
+        {.fallback = "required by appearance",
+         .help = "Picture that the result looks like, material where it is dark; in a recipe, "
+                 "relative to the recipe's folder.",
+         .is_path = true});
+    add_optimize_row<&O::image_size>(t, "image_size", "--optimize-image-size",
+                                     {.unit = "mm",
+                                      .limits = {0.01, 1e5},
+                                      .fallback = "required by appearance",
+                                      .help = "Length that the picture's width covers."});
+    add_optimize_row<&O::invert>(
         t, "invert", "--optimize-invert",
         {.fallback = "false", .help = "Put material where the picture is bright instead of dark."});
-    add_row<&O::threshold>(t, "threshold", "--optimize-threshold",
-                           {.limits = {0.001, 1},
-                            .fallback = "parts the picture's histogram best",
-                            .help = "Brightness from which the picture is bright, 0 is black and 1 white."});
-    add_row<&O::neighbourhood>(t, "neighbourhood", "--optimize-neighbourhood",
-                               {.unit = "elements",
-                                .limits = {4, 64},
-                                .fallback = format_value(std::int64_t{O{}.neighbourhood}),
-                                .help = "Edge of the squares in which result and picture are compared."});
-    add_row<&O::exponent>(t, "exponent", "--optimize-exponent",
-                          {.limits = {1, 2},
-                           .fallback = format_value(O{}.exponent),
-                           .help = "Exponent of the difference between result and picture."});
-    add_row<&O::spread>(t, "spread", "--optimize-spread",
-                        {.limits = {0, 1e6},
-                         .fallback = format_value(O{}.spread),
-                         .help = "Weight with which all of the picture is used evenly; 0 for none."});
-    add_row<&O::levels>(t, "levels", "--optimize-levels",
-                        {.limits = {1, 6},
-                         .fallback = format_value(std::int64_t{O{}.levels}),
-                         .help = "Number of grids, each twice as fine as the one before."});
+    add_optimize_row<&O::threshold>(
+        t, "threshold", "--optimize-threshold",
+        {.limits = {0.001, 1},
+         .fallback = "parts the picture's histogram best",
+         .help = "Brightness from which the picture is bright, 0 is black and 1 white."});
+    add_optimize_row<&O::neighbourhood>(
+        t, "neighbourhood", "--optimize-neighbourhood",
+        {.unit = "elements",
+         .limits = {4, 64},
+         .fallback = format_value(std::int64_t{O{}.neighbourhood}),
+         .help = "Edge of the squares in which result and picture are compared."});
+    add_optimize_row<&O::exponent>(t, "exponent", "--optimize-exponent",
+                                   {.limits = {1, 2},
+                                    .fallback = format_value(O{}.exponent),
+                                    .help = "Exponent of the difference between result and picture."});
+    add_optimize_row<&O::spread>(
+        t, "spread", "--optimize-spread",
+        {.limits = {0, 1e6},
+         .fallback = format_value(O{}.spread),
+         .help = "Weight with which all of the picture is used evenly; 0 for none."});
+    add_optimize_row<&O::levels>(t, "levels", "--optimize-levels",
+                                 {.limits = {1, 6},
+                                  .fallback = format_value(std::int64_t{O{}.levels}),
+                                  .help = "Number of grids, each twice as fine as the one before."});
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ LaidPart::LaidPart(const Recipe& recipe) {
     const PartRecipe& part = recipe_.part;
     if (part.mesh.empty()) return;
     std::optional<MeshReport> report;
-    mesh_ = read_closed_mesh(part.mesh, part.unit, part.scale, {part_axes(part), {}}, report);
+    mesh_ = read_closed_mesh({part.mesh, part.unit, part.scale, {part_axes(part), {}}}, report);
 }
 
 FieldPtr LaidPart::body(dvec3 lay_on) const {

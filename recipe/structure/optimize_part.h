@@ -19,6 +19,8 @@ struct ElementIteration;
 struct OptimizationStep;
 struct StructureReport;
 
+class InputCache;
+
 struct OptimizeOptions {
     std::filesystem::path plans{};  ///< folder for results; empty: none are read or kept
     bool anew = false;              ///< optimises even if the folder has the result
@@ -35,6 +37,7 @@ struct OptimizeOptions {
     /// As in PlaceElementsOptions::on_iteration.
     std::function<void(const ElementIteration&, int iterations)> on_elements{};
     SharedSolves* shared = nullptr;  ///< the processes that share the load cases; null for one
+    InputCache* inputs = nullptr;    ///< what former builds know of files; may be null
     bool as_designed = false;  ///< the job is that of the part before it is turned, mirrored or laid down
 };
 
