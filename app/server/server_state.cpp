@@ -25,6 +25,7 @@ ServerState::ServerState(const ServerOptions& given)
       folder(given.folder),
       jobs(folder, events, given.threads, given.jobs),
       outputs(folder, events, given.threads),
+      analyses(events),
       turns(most_computing) {
     if (!options.recipe.empty()) own_recipes.insert(folder.file(options.recipe));
     add_setting_routes(*this);
@@ -32,6 +33,7 @@ ServerState::ServerState(const ServerOptions& given)
     add_job_routes(*this);
     add_layer_routes(*this);
     add_output_routes(*this);
+    add_analysis_routes(*this);
     if (options.has_page) add_page_routes(*this);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/server/analysis_store.h"
 #include "app/server/http_server.h"
 #include "app/server/job_store.h"
 #include "app/server/output_store.h"
@@ -46,6 +47,7 @@ struct ServerState {
     EventHub events;
     JobStore jobs;
     OutputStore outputs;
+    AnalysisStore analyses;
     ComputeTurn::Turns turns;
     std::mutex own_recipes_mutex;
     std::set<std::filesystem::path> own_recipes;  ///< which may be written again
@@ -57,6 +59,7 @@ void add_recipe_routes(ServerState& state);
 void add_job_routes(ServerState& state);
 void add_layer_routes(ServerState& state);
 void add_output_routes(ServerState& state);
+void add_analysis_routes(ServerState& state);
 void add_page_routes(ServerState& state);
 
 /// Serves until `cancel` is set; `on_ready` is told the address of the page or of the interface.
