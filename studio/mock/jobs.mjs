@@ -1,5 +1,6 @@
 // Builds the jobs of recipes, or says what is wrong with them.
 import { createHash } from "node:crypto";
+import { modulus_of } from "./analyses.mjs";
 import { find_setting, profiles, table } from "./catalog.mjs";
 import { graded, make_field } from "./field.mjs";
 import { read_toml } from "./toml.mjs";
@@ -135,10 +136,11 @@ export function build_job(text, extents) {
         layers: { count, heights: [[count, height]], height_mm: +(count * height).toFixed(4) },
         z0: bounds.lo[2],
         supports,
+        modulus: modulus_of(values),
         notes,
         display,
     };
-    return { job: { info, field, bounds, height, count } };
+    return { job: { info, field, bounds, height, count, values } };
 }
 
 /** A report in the shape of `lamella check --json`. */

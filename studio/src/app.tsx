@@ -10,6 +10,7 @@ import { Segments } from "./shell/segments";
 import { StatusLine } from "./shell/status";
 import { DropShade } from "./start/drop";
 import { Start } from "./start/start";
+import { StiffnessPanel } from "./stiffness/stiffness_panel";
 import { left_mode, ready, starting, tab, text } from "./state/store";
 import { TextEditor } from "./text/editor";
 import { View } from "./view/view";
@@ -35,7 +36,7 @@ function DesignPanel() {
     );
 }
 
-const panels = { design: DesignPanel, check: CheckPanel, make: MakePanel };
+const panels = { design: DesignPanel, check: CheckPanel, stiffness: StiffnessPanel, make: MakePanel };
 
 function Workbench() {
     const Panel = panels[tab.value];

@@ -14,6 +14,7 @@ import { listen_to_keys } from "./shell/keys";
 import { type Probe, probe } from "./shell/probe";
 import { start_theme } from "./shell/theme";
 import { listen_to_drops } from "./start/drop";
+import { ask_analyses_again, take_analysis } from "./stiffness/analyses";
 import { refresh } from "./state/jobs";
 import { report } from "./state/notices";
 import {
@@ -84,12 +85,14 @@ const listener = {
         }
         refresh(); // a server that was started anew has lost its jobs
         void ask_again();
+        void ask_analyses_again();
     },
     progress: ({ what, done, of, text: doing }: Progress) => {
         if (what === "build") build_progress.value = { done, of, text: doing };
         else if (what === "check" && check_progress.value) check_progress.value = { done, of };
     },
     output: take_output,
+    analysis: take_analysis,
 };
 void load().then((welcome) => {
     if (welcome) listen(listener);

@@ -1,25 +1,14 @@
 // The page as a whole: accessibility, an absent server, a browser without WebGL2, a wrong token.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
 import { make_mock } from "../mock/server.mjs";
-import { open_browser, open_studio, start_server, stop_server } from "./studio.mjs";
+import { open_browser, open_studio, start_server, stop_server, violations } from "./studio.mjs";
 
-const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 let browser;
 before(async () => {
     browser = await open_browser();
 });
 after(() => browser.close());
-
-async function violations(page) {
-    await page.evaluate(axe_source); // evaluated by the test, not by the page: its policy stays as it is
-    const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
-    return found.violations
-        .filter((one) => one.impact === "serious" || one.impact === "critical")
-        .map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(" ")).join(", ")}`);
-}
 
 for (const scheme of ["light", "dark"]) {
     test(`no serious faults of accessibility, ${scheme}`, async () => {

@@ -1,10 +1,22 @@
 // Opens the page in Chromium against the mock, for the tests.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { chromium } from "playwright-core";
 import { make_mock } from "../mock/server.mjs";
 
+const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const flags = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 /** Slow machines draw without a graphics card while other work runs. */
 export const patience = 60000;
+
+/** Serious faults of accessibility on the page as it is. */
+export async function violations(page) {
+    await page.evaluate(axe_source); // evaluated by the test, not by the page: its policy stays as it is
+    const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+    return found.violations
+        .filter((one) => one.impact === "serious" || one.impact === "critical")
+        .map((one) => `${one.id}: ${one.nodes.map((node) => node.target.join(" ")).join(", ")}`);
+}
 
 export async function open_browser(extra = []) {
     return chromium.launch({

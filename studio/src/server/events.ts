@@ -1,5 +1,6 @@
 // The server's events: progress, outputs, and whether it is there at all.
 import { signal } from "@preact/signals";
+import type { News } from "./analysis";
 import { with_token } from "./http";
 import { session } from "./token";
 import type { Output, Progress } from "./types";
@@ -12,6 +13,7 @@ export interface Listener {
     back(): void;
     progress(progress: Progress): void;
     output(output: Output): void;
+    analysis(news: News): void;
 }
 
 /** How long a closed line stays closed until it is opened anew, ms. */
@@ -26,6 +28,7 @@ export function listen(listener: Listener): void {
     });
     stream.addEventListener("progress", (event) => listener.progress(JSON.parse(event.data) as Progress));
     stream.addEventListener("output", (event) => listener.output(JSON.parse(event.data) as Output));
+    stream.addEventListener("analysis", (event) => listener.analysis(JSON.parse(event.data) as News));
     stream.addEventListener("error", () => {
         away.value = true;
         if (stream.readyState !== EventSource.CLOSED) return;

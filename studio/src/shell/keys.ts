@@ -4,7 +4,12 @@ import { redo, save, undo } from "../state/recipe";
 import { focus_soon } from "./focus";
 import { job, layer, left_mode, type Tab, tab } from "../state/store";
 
-const tab_keys: Record<string, Tab> = { Digit1: "design", Digit2: "check", Digit3: "make" };
+const tab_keys: Record<string, Tab> = {
+    Digit1: "design",
+    Digit2: "check",
+    Digit3: "stiffness",
+    Digit4: "make",
+};
 
 /** Whether a key belongs to what is being typed. */
 function is_typing(event: KeyboardEvent): boolean {

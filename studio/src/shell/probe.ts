@@ -3,6 +3,9 @@ import { faults } from "../check/faults";
 import { lines, picture } from "../layers/picture";
 import { away } from "../server/events";
 import { building, job, layer, mistakes, tab, text } from "../state/store";
+import { homogenizing, searching } from "../stiffness/analyses";
+import { shown_design } from "../view/design";
+import { shown_scale } from "../view/paint";
 import { shown_voxels, stage } from "../view/shown";
 
 export interface Probe {
@@ -33,6 +36,10 @@ export const probe: Probe = {
             building: building.value,
             away: away.value,
             tab: tab.value,
+            homogenized: homogenizing.value?.analysis ?? null,
+            searched: searching.value?.analysis ?? null,
+            design: shown_design.value,
+            paint: shown_scale.value,
         };
     },
 };
