@@ -93,7 +93,7 @@ function draw(canvas: HTMLCanvasElement, facets: Facet[]): void {
     canvas.height = Math.max(1, Math.round(box.height * ratio));
     const context = canvas.getContext("2d")!;
     const { azimuth, elevation } = eye.value;
-    const reach = 0.43 * Math.min(canvas.width, canvas.height);
+    const reach = 0.4 * Math.min(canvas.width, canvas.height);
     const place = ([right, up]: Triple): [number, number] => [
         canvas.width / 2 + reach * right,
         canvas.height / 2 - reach * up,
