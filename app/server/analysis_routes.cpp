@@ -83,9 +83,7 @@ void add_analysis_routes(ServerState& state) {
         return Json::object();
     });
     http.route("POST", one + "/stop", [&state](const HttpRequest& request) -> HttpReply {
-        const auto analysis = state.analyses.find(analysis_of(request));
-        analysis->cancel().cancel();
-        return analysis->describe();
+        return state.analyses.stop(analysis_of(request))->describe();
     });
     http.route("GET", one + "/volume", [&state](const HttpRequest& request) -> HttpReply {
         return {"application/octet-stream", state.analyses.find(analysis_of(request))->design()};

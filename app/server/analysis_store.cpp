@@ -55,6 +55,19 @@ std::shared_ptr<Analysis> AnalysisStore::find(int number) {
     return found->second.analysis;
 }
 
+std::shared_ptr<Analysis> AnalysisStore::stop(int number) {
+    std::shared_ptr<Analysis> analysis = find(number);
+    analysis->cancel().cancel();
+    const std::lock_guard lock(mutex_);
+    const auto entry = entries_.find(number);
+    // The worker has not taken it, and may be long with the one before.
+    if (entry != entries_.end() && entry->second.work) {
+        entry->second.work = nullptr;
+        analysis->end(Analysis::State::cancelled, "stopped before it began");
+    }
+    return analysis;
+}
+
 void AnalysisStore::remove(int number) {
     const std::shared_ptr<Analysis> analysis = find(number);
     analysis->cancel().cancel();

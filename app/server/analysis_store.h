@@ -29,6 +29,8 @@ class AnalysisStore {
     int start(const std::string& kind, const std::string& session, Work work);
     /// Throws HttpError 404 for an analysis that is not kept.
     std::shared_ptr<Analysis> find(int number);
+    /// Ends an analysis; what it has found stays. Returns it.
+    std::shared_ptr<Analysis> stop(int number);
     /// Cancels an analysis, and forgets it.
     void remove(int number);
 

@@ -84,6 +84,7 @@ async function take_job(recipe: string, mine: AbortController): Promise<void> {
                 job.value = null; // that of another recipe must not be made
                 mistakes.value = [];
                 needs_search.value = true;
+                if (shown_design.value?.of !== recipe) shown_design.value = null;
             });
         } else {
             report(error);

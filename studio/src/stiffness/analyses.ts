@@ -34,15 +34,15 @@ function put(next: Analysis): void {
     const slot = slots[next.kind];
     if (slot.value?.analysis.analysis !== next.analysis) return;
     slot.value = { ...slot.value, analysis: next };
-    if (next.kind === "optimize" && next.designs > 0) show_design(next);
+    if (next.kind === "optimize" && next.designs > 0) show_design(next, slot.value.of);
     if (next.kind === "optimize" && next.state === "done") refresh(); // the part is now the design
 }
 
-function show_design(search: Analysis): void {
+function show_design(search: Analysis, of: string): void {
     const { analysis: id, designs, count } = search;
     const shown = shown_design.value;
     if (shown?.id === id && shown.number === designs) return;
-    shown_design.value = { id, number: designs, step: count };
+    shown_design.value = { id, number: designs, step: count, of };
 }
 
 async function fetch_whole(id: number): Promise<void> {

@@ -6,6 +6,8 @@ export interface ShownDesign {
     id: number;
     number: number;
     step: number;
+    /** The text of its recipe. */
+    of: string;
 }
 
 /** Null: the part is shown. */

@@ -269,6 +269,9 @@ TEST_CASE("analyses wait for each other, few of them, and end with the server", 
         CHECK(server.json("GET", place_of(second))["state"] == "waiting");
         server.json("POST", "/api/optimize", {{"text", recipe}}, 503);
         server.json("DELETE", place_of(second));
+        const Json third = server.json("POST", "/api/optimize", {{"text", recipe}}, 202);
+        CHECK(server.json("POST", place_of(third) + "/stop", Json::object())["state"] == "cancelled");
+        CHECK(server.json("GET", place_of(first))["state"] == "running");
         server.json("POST", "/api/optimize", {{"text", recipe}}, 202);
     }
     CHECK(std::chrono::steady_clock::now() - before < std::chrono::seconds(60));
