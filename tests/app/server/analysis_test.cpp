@@ -144,6 +144,20 @@ TEST_CASE("a foam is homogenised as the command does", "[server]") {
     CHECK(result == Json::parse(run.out));
 }
 
+TEST_CASE("a long homogenisation ends soon when it is stopped", "[server]") {
+    const RunningServer server;
+    const std::string job = server.build(foam);
+    const Json started =
+        server.json("POST", "/api/jobs/" + job + "/homogenize", {{"rve", 256}, {"samples", 16}}, 202);
+    awaited(server, started, [](const Json& now) { return now["state"] == "running"; });
+    const auto before = std::chrono::steady_clock::now();
+    server.json("POST", place_of(started) + "/stop", Json::object());
+    const Json ended = finished(server, started);
+    CHECK(std::chrono::steady_clock::now() - before < std::chrono::seconds(20));
+    CHECK(ended["state"] == "cancelled");
+    CHECK(ended["result"].is_null());
+}
+
 TEST_CASE("what cannot be homogenised is told with the command's words", "[server]") {
     const RunningServer server;
     const auto message = [&](const std::string& recipe, const Json& asked, int status) {
