@@ -1,6 +1,26 @@
 // Bundles the page into dist/: index.html, studio.js, studio.css and icon.svg. `--watch` rebuilds on changes.
-import { appendFileSync, copyFileSync, mkdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { appendFileSync, copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { resolve } from "node:path";
 import { build, context } from "esbuild";
+
+const pictures = "src/start/pictures";
+
+/** The module "gallery-pictures": all files of the folder by name. */
+const gallery = {
+    name: "gallery",
+    setup({ onResolve, onLoad }) {
+        onResolve({ filter: /^gallery-pictures$/ }, ({ path }) => ({ path, namespace: "gallery" }));
+        onLoad({ filter: /.*/, namespace: "gallery" }, () => {
+            const files = readdirSync(pictures).filter((file) => file.endsWith(".webp"));
+            const lines = files.map((file, i) => `import p${i} from "./${file}";`);
+            const table = files.map((file, i) => `${JSON.stringify(file.replace(".webp", ""))}: p${i}`);
+            return {
+                contents: `${lines.join("\n")}\nexport default { ${table.join(", ")} };`,
+                resolveDir: resolve(pictures),
+            };
+        });
+    },
+};
 
 const options = {
     entryPoints: { studio: "src/main.tsx" },
@@ -12,7 +32,8 @@ const options = {
     jsx: "automatic",
     jsxImportSource: "preact",
     legalComments: "none", // licences() has them all
-    loader: { ".glsl": "text" },
+    loader: { ".glsl": "text", ".webp": "dataurl" },
+    plugins: [gallery],
     logLevel: "warning",
     metafile: true,
 };

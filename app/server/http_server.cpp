@@ -208,7 +208,7 @@ struct HttpServer::State {
                 request.query[name] = value;
             }
             for (const auto& [name, value] : request.query)
-                request.target.append("&").append(name).append("=").append(value);
+                if (name != "session") request.target.append("&").append(name).append("=").append(value);
             send(route.handler(request), request, response);
             return;
         }

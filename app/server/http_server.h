@@ -31,7 +31,7 @@ class HttpError : public Error {
 struct HttpRequest {
     std::map<std::string, std::string> parts;  ///< of the path, by the names of the route's pattern
     std::map<std::string, std::string> query;
-    std::string target;  ///< path and query without the token, for entity tags
+    std::string target;  ///< path and query without token and session, for entity tags
     std::string body;
     std::string known_tag;  ///< If-None-Match; empty: none
 

@@ -30,9 +30,10 @@ HttpReply check(ServerState& state, const HttpRequest& request) {
     const std::string session = request.text("session");
     OutputChecks checks;
     const auto backend = checks.check_of(job->recipe.printer, job->recipe.part.name, job->job(), job->parts);
+    const SessionWork work(state, request);
     StreamOptions options;
+    static_cast<PassControl&>(options) = work.control;
     options.range = {0, job->job().layers.count()};
-    options.threads = state.options.threads;
     int told = 0;
     options.on_progress = [&](const Progress& progress) {
         if (progress.done < told + progress.total / 100) return;

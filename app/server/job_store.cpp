@@ -30,8 +30,25 @@ std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::in
     Build& build = builds_[session];
     if (build.cancel && sequence < build.sequence) throw Interrupted("a newer recipe of this session came");
     if (build.cancel) build.cancel->cancel();
-    build = {sequence, std::make_shared<CancelToken>()};
+    build.sequence = sequence;
+    build.cancel = std::make_shared<CancelToken>();
+    if (!build.work) build.work = std::make_shared<CancelToken>();
     return build.cancel;
+}
+
+/// Ends what is computed of the jobs before the one of a build.
+void JobStore::end_work(const std::string& session, std::int64_t sequence) {
+    const std::lock_guard lock(mutex_);
+    const auto found = builds_.find(session);
+    if (found == builds_.end() || found->second.sequence != sequence) return;
+    found->second.work->cancel();
+    found->second.work = std::make_shared<CancelToken>();
+}
+
+std::shared_ptr<CancelToken> JobStore::work_of(const std::string& session) {
+    const std::lock_guard lock(mutex_);
+    const auto found = builds_.find(session);
+    return found == builds_.end() ? nullptr : found->second.work;
 }
 
 std::shared_ptr<const ServedJob> JobStore::held(const std::string& id) {
@@ -53,6 +70,7 @@ std::shared_ptr<const ServedJob> JobStore::build(const std::string& text, const 
                                                  std::int64_t sequence, bool searches) {
     const std::shared_ptr<CancelToken> cancel = begin(session, sequence);
     const Recipe recipe = read_served_recipe(text, folder_);
+    end_work(session, sequence);  // of a recipe with mistakes the page shows the job before
     if (auto job = held(served_job_id(recipe, text))) return job;
     if (!searches) check_is_searched(recipe);
     BuildControl control;
@@ -81,7 +99,10 @@ void JobStore::forget(const std::string& id) {
 
 void JobStore::cancel_all() {
     const std::lock_guard lock(mutex_);
-    for (const auto& [session, build] : builds_) build.cancel->cancel();
+    for (const auto& [session, build] : builds_) {
+        build.cancel->cancel();
+        build.work->cancel();
+    }
 }
 
 }  // namespace lamella

@@ -24,6 +24,9 @@ class JobStore {
     /// search that it may not do, and Interrupted when a build with a higher number came.
     std::shared_ptr<const ServedJob> build(const std::string& text, const std::string& session,
                                            std::int64_t sequence, bool searches = true);
+    /// Returns what tells slow work for a session that a newer recipe of the session has come; null for a
+    /// session that has built nothing.
+    std::shared_ptr<CancelToken> work_of(const std::string& session);
     /// Throws HttpError 404 for a job that is not held.
     std::shared_ptr<const ServedJob> find(const std::string& id);
     void forget(const std::string& id);
@@ -34,8 +37,10 @@ class JobStore {
     struct Build {
         std::int64_t sequence = 0;
         std::shared_ptr<CancelToken> cancel;
+        std::shared_ptr<CancelToken> work;  ///< for those who look at the job
     };
     std::shared_ptr<CancelToken> begin(const std::string& session, std::int64_t sequence);
+    void end_work(const std::string& session, std::int64_t sequence);
     std::shared_ptr<const ServedJob> held(const std::string& id);
     void hold(std::shared_ptr<const ServedJob> job);
 

@@ -11,6 +11,7 @@
 #include "app/reports/grey_page.h"
 #include "app/server/http_server.h"
 #include "app/server/voxel_grid.h"
+#include "engine/base/cancel_token.h"
 #include "engine/base/parallel.h"
 #include "engine/contours/coverage.h"
 #include "engine/field/slice_context.h"
@@ -208,7 +209,7 @@ Json layer_paths(const ServedJob& job, int layer) {
     return {{"paths", std::move(paths)}, {"z", cut.z()}};
 }
 
-Json area_curve(const ServedJob& job, int values, int threads) {
+Json area_curve(const ServedJob& job, int values, const PassControl& control) {
     const int layers = job.job().layers.count();
     const int each = std::max(1, (layers + values - 1) / values);
     const int count = (layers + each - 1) / each;
@@ -216,9 +217,10 @@ Json area_curve(const ServedJob& job, int values, int threads) {
     const Rect rect = job.job().bounds.rect();
     const RowBand page = page_of(rect, std::max(rect.size().x, rect.size().y) / rows_across, 1);
     std::vector<double> part(static_cast<std::size_t>(count)), supports(part.size());
-    ThreadArena arena(threads);
+    ThreadArena arena(control.threads);
     arena.execute([&] {
         parallel_for(part.size(), [&](std::size_t i) {
+            stop_if_cancelled(control.cancel);
             const Layer cut = layer_of(job, std::min(static_cast<int>(i) * each + each / 2, layers - 1));
             part[i] = area_of(&cut.part(), page);
             supports[i] = area_of(cut.supports(), page);
@@ -234,7 +236,7 @@ RowBand voxel_page(const VoxelGrid& grid) {
     return page;
 }
 
-std::string coverage_volume(const ServedJob& job, int longest, int threads) {
+std::string coverage_volume(const ServedJob& job, int longest, const PassControl& control) {
     const VoxelGrid grid = voxel_grid(job.job().bounds, longest);
     const RowBand page = voxel_page(grid);
     const std::size_t plane = grid.plane();
@@ -246,9 +248,10 @@ std::string coverage_volume(const ServedJob& job, int longest, int threads) {
         for (std::size_t i = 0; i < plane; ++i)
             bytes[head + 2 * (k * plane + i) + channel] = static_cast<char>(grey[i]);
     };
-    ThreadArena arena(threads);
+    ThreadArena arena(control.threads);
     arena.execute([&] {
         parallel_for(static_cast<std::size_t>(grid.size.z), [&](std::size_t k) {
+            stop_if_cancelled(control.cancel);
             const double z = grid.lo.z + (static_cast<double>(k) + 0.5) * grid.voxel;
             SliceContext context;
             put(context.slice(*job.job().part, z), k, 0);

@@ -112,12 +112,14 @@ void add_layer_routes(ServerState& state) {
     });
     add("layers/{layer}/paths",
         [](const Asked& a, const HttpRequest&) -> HttpReply { return layer_paths(*a.job, a.layer); });
-    add("curve", [threads](const Asked& a, const HttpRequest& request) -> HttpReply {
-        return area_curve(*a.job, request.integer("values", 400, 2, 4096), threads);
+    add("curve", [&state](const Asked& a, const HttpRequest& request) -> HttpReply {
+        const SessionWork work(state, request);
+        return area_curve(*a.job, request.integer("values", 400, 2, 4096), work.control);
     });
-    add("volume", [threads](const Asked& a, const HttpRequest& request) {
+    add("volume", [&state](const Asked& a, const HttpRequest& request) {
+        const SessionWork work(state, request);
         return HttpReply("application/octet-stream",
-                         coverage_volume(*a.job, request.integer("n", 96, 8, 256), threads));
+                         coverage_volume(*a.job, request.integer("n", 96, 8, 256), work.control));
     });
     add("modulus", [threads](const Asked& a, const HttpRequest& request) {
         return HttpReply("application/octet-stream",

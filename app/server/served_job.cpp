@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/gtc/matrix_access.hpp>
 
 #include "app/server/recipe_mistakes.h"
 #include "printers/common/layer_heights.h"
@@ -129,6 +130,19 @@ std::shared_ptr<const PreviewScene> ServedJob::scene(int pixels, int threads) co
     return scene_;
 }
 
+namespace {
+
+/// Rows of the matrix that takes points of the recipe to those of the job; null where a point has several
+/// places.
+nlohmann::ordered_json axes_of(const ServedJob& served) {
+    if (served.parts > 1 || served.built.pieces > 1) return nullptr;
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (int row = 0; row < 3; ++row) rows.push_back(json_triple(glm::row(served.built.axes, row)));
+    return rows;
+}
+
+}  // namespace
+
 nlohmann::ordered_json ServedJob::facts() const {
     using Json = nlohmann::ordered_json;
     const PrinterProfile& printer = recipe.printer;
@@ -158,6 +172,7 @@ nlohmann::ordered_json ServedJob::facts() const {
             {"layers",
              {{"count", job().layers.count()}, {"heights", heights}, {"height_mm", job().layers.total()}}},
             {"z0", job().z0()},
+            {"axes", axes_of(*this)},
             {"supports", job().supports != nullptr},
             {"parts", parts},
             {"modulus", built.modulus ? modulus_json(*built.modulus) : Json(nullptr)},

@@ -37,6 +37,12 @@ ServerState::ServerState(const ServerOptions& given)
     if (options.has_page) add_page_routes(*this);
 }
 
+SessionWork::SessionWork(ServerState& state, const HttpRequest& request)
+    : cancel(state.jobs.work_of(request.text("session"))) {
+    control.threads = state.options.threads;
+    control.cancel = cancel.get();
+}
+
 void serve_http(const ServerOptions& options, const CancelToken& cancel,
                 const std::function<void(const std::string& address)>& on_ready) {
     ServerState state(options);

@@ -53,6 +53,14 @@ struct ServerState {
     std::set<std::filesystem::path> own_recipes;  ///< which may be written again
 };
 
+/// Control of slow work that a request asks for: a newer recipe of its session ends it.
+struct SessionWork {
+    SessionWork(ServerState& state, const HttpRequest& request);
+
+    std::shared_ptr<CancelToken> cancel;  ///< null without a session
+    PassControl control;
+};
+
 /// Add the routes of a part of the interface (docs/embedding/http.md).
 void add_setting_routes(ServerState& state);
 void add_recipe_routes(ServerState& state);

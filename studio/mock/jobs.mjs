@@ -135,6 +135,11 @@ export function build_job(text, extents) {
         bounds,
         layers: { count, heights: [[count, height]], height_mm: +(count * height).toFixed(4) },
         z0: bounds.lo[2],
+        axes: [
+            [1, 0, 0],
+            [0, 1, 0],
+            [0, 0, 1],
+        ],
         supports,
         modulus: modulus_of(values),
         notes,

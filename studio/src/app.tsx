@@ -9,6 +9,7 @@ import { Messages } from "./shell/messages";
 import { Segments } from "./shell/segments";
 import { StatusLine } from "./shell/status";
 import { DropShade } from "./start/drop";
+import { PictureDialog } from "./start/picture_dialog";
 import { Start } from "./start/start";
 import { StiffnessPanel } from "./stiffness/stiffness_panel";
 import { left_mode, ready, starting, tab, text } from "./state/store";
@@ -69,6 +70,7 @@ export function App() {
             <StatusLine />
             <Messages />
             <DropShade />
+            <PictureDialog />
         </>
     );
 }

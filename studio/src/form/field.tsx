@@ -17,6 +17,7 @@ import { set_key, type Spot } from "./changes";
 import { helped } from "./help";
 import { PathControl } from "./path_control";
 import { mistakes_at } from "./places";
+import { RowsControl } from "./rows_curve";
 
 const controls: Record<SettingType, FunctionComponent<ControlProps>> = {
     boolean: BooleanControl,
@@ -30,7 +31,7 @@ const controls: Record<SettingType, FunctionComponent<ControlProps>> = {
     graded: GradedControl,
     graded_triple: (props) => <TextControl {...props} mono />,
     formula: (props) => <TextControl {...props} mono />,
-    rows: (props) => <TextControl {...props} mono />,
+    rows: RowsControl,
 };
 
 /** The machine's name is a text that the server knows the words of. */
@@ -45,7 +46,14 @@ function ProfileControl(props: ControlProps) {
     return <ChoiceControl {...props} setting={{ ...props.setting, type: "choice", choices }} />;
 }
 
-export function Field({ setting, spot }: { setting: Setting; spot: Spot }) {
+interface FieldProps {
+    setting: Setting;
+    spot: Spot;
+    /** Beside the view, where the form may show the same field. */
+    in_card?: boolean;
+}
+
+export function Field({ setting, spot, in_card }: FieldProps) {
     const index = spot.index ?? 0;
     const { section, key } = setting;
     const place = place_of(section, index, key);
@@ -57,14 +65,14 @@ export function Field({ setting, spot }: { setting: Setting; spot: Spot }) {
     const in_text = spot.index === undefined ? values.value.given.includes(name) : known !== undefined;
     const given = guess === undefined ? in_text : guess !== null;
     const wrong = mistakes_at(section, index, key);
-    const id = `field-${place.replaceAll(".", "-")}`;
+    const id = `${in_card ? "card" : "field"}-${place.replaceAll(".", "-")}`;
     const Control = control_of(setting);
     const show_help = () => {
         helped.value = setting;
     };
     return (
         <div
-            class={`field type-${setting.type}${given ? " given" : ""}${wrong.length ? " wrong" : ""}`}
+            class={`field type-${setting.type} key-${key}${given ? " given" : ""}${wrong.length ? " wrong" : ""}`}
             onFocusCapture={show_help}
             onPointerEnter={show_help}
         >

@@ -1,5 +1,5 @@
 // The area of the layers over the height, with a marker at the layer that is shown. A click goes to a layer.
-import { effect, signal } from "@preact/signals";
+import { effect, signal, untracked } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { get_curve } from "../server/api";
@@ -8,6 +8,7 @@ import type { Curve, Job } from "../server/types";
 import { layer_at, slab_of } from "../state/heights";
 import { job, layer } from "../state/store";
 import { dark } from "../shell/theme";
+import { after_layer } from "./layer_first";
 
 export const curve = signal<{ job: Job; curve: Curve } | null>(null);
 
@@ -104,18 +105,25 @@ function options_of(made: Job, width: number, height: number): uPlot.Options {
 
 function load_curves(): () => void {
     const latest = new Latest();
+    let call_off = () => {};
     const stop = effect(() => {
         const made = job.value;
+        call_off();
         if (!made) {
             curve.value = null;
             return;
         }
-        latest.run(async (signal) => {
-            curve.value = { job: made, curve: await get_curve(made, signal) };
-        });
+        call_off = untracked(() =>
+            after_layer(made, () =>
+                latest.run(async (signal) => {
+                    curve.value = { job: made, curve: await get_curve(made, signal) };
+                }),
+            ),
+        );
     });
     return () => {
         stop();
+        call_off();
         latest.cancel();
     };
 }

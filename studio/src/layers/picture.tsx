@@ -3,8 +3,12 @@ import { effect, signal, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { shown_fault, wanted_place } from "../check/faults";
 import { get_contours, get_paths } from "../server/api";
+import { LayerMarks } from "../place/layer_marks";
+import { open_menu } from "../place/menu";
+import { placing, put_thing } from "../place/things";
 import { Latest } from "../server/latest";
-import type { Job } from "../server/types";
+import type { Job, Triple } from "../server/types";
+import { plane_of } from "../state/heights";
 import { job, layer } from "../state/store";
 import { draw, type Lines } from "./draw";
 import { load_mask, type Picture } from "./mask";
@@ -166,6 +170,27 @@ function watch_pointer(room: HTMLElement, pointer: Signal<[number, number] | nul
     };
 }
 
+/** A right click opens the menu of what can be put there; a click puts what waits for a place. */
+function watch_placing(room: HTMLElement): () => void {
+    const place_of_event = (made: Job, event: MouseEvent): Triple => {
+        const box = room.getBoundingClientRect();
+        return [...place_of(made, event.clientX - box.left, event.clientY - box.top), plane_of(made, layer.value)];
+    };
+    const open = (event: MouseEvent) => {
+        event.preventDefault();
+        if (job.value) open_menu(event.clientX, event.clientY, place_of_event(job.value, event));
+    };
+    const click = (event: MouseEvent) => {
+        if (job.value && placing.value) put_thing(placing.value, place_of_event(job.value, event));
+    };
+    room.addEventListener("contextmenu", open);
+    room.addEventListener("click", click);
+    return () => {
+        room.removeEventListener("contextmenu", open);
+        room.removeEventListener("click", click);
+    };
+}
+
 function on_key(made: Job, event: KeyboardEvent): void {
     const step = event.shiftKey ? 8 : 40;
     const { width, height } = pane.value;
@@ -205,6 +230,7 @@ export function LayerPicture({ made, pointer }: { made: Job; pointer: Signal<[nu
             watch_drawing(canvas.current!),
             watch_places(),
             watch_pointer(room.current!, pointer),
+            watch_placing(room.current!),
         ];
         return () => {
             watcher.disconnect();
@@ -224,6 +250,7 @@ export function LayerPicture({ made, pointer }: { made: Job; pointer: Signal<[nu
             >
                 <canvas ref={canvas} aria-hidden="true" />
             </div>
+            <LayerMarks />
             <div class="zoom-buttons">
                 <button
                     title="Larger (+)"

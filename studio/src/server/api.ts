@@ -73,10 +73,10 @@ export const get_paths = (job: Job, layer: number, signal: Signal) =>
     get_json<Paths>(of_job(job, `layers/${layer}/paths`), { signal });
 
 export const get_curve = (job: Job, signal: Signal) =>
-    get_json<Curve>(of_job(job, "curve?values=400"), { signal });
+    get_json<Curve>(of_job(job, `curve?values=400&session=${session}`), { signal });
 
 export const get_volume = (job: Job, voxels: number, signal: Signal) =>
-    get_bytes(of_job(job, `volume?n=${voxels}`), { signal });
+    get_bytes(of_job(job, `volume?n=${voxels}&session=${session}`), { signal });
 
 export interface FrameView {
     width: number;

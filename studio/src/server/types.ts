@@ -100,6 +100,8 @@ export interface Job {
     process: string;
     bounds: { lo: Triple; hi: Triple };
     layers: { count: number; heights: [number, number][]; height_mm: number };
+    /** Rows of the matrix from the recipe's coordinates to those of the job; null: a point has several places. */
+    axes: [Triple, Triple, Triple] | null;
     /** Height of the bed in the space of the job, mm. */
     z0: number;
     supports: boolean;

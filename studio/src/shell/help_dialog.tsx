@@ -12,6 +12,7 @@ const keys: [string, string][] = [
     ["wheel on the layer slider", "a hundredth of all layers; with Shift one"],
     ["drag, right drag, wheel in the view", "turn, move, zoom"],
     ["click on the part", "go to that layer"],
+    ["right click on the part or a layer", "put something there"],
     ["arrows, +, -, Home", "move and zoom the view or the layer that has the focus"],
 ];
 

@@ -36,7 +36,7 @@ export function DropShade() {
             <p>
                 {starting.value
                     ? "Drop the model to begin a recipe"
-                    : "Drop the model to make it the part of this recipe"}
+                    : "Drop a model to make it the part of this recipe, or a picture to make it the pattern of its skin"}
             </p>
         </div>
     );

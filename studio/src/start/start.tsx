@@ -1,5 +1,6 @@
 // The start: drop a model, or take an example.
 import { useRef } from "preact/hooks";
+import pictures from "gallery-pictures";
 import { MachineSelect } from "../form/machine_select";
 import { examples } from "../state/store";
 import { choose_machine_for_new, machine_for_new, open_new, sending, take_files } from "./take_model";
@@ -45,6 +46,7 @@ export function Start() {
                     {examples.value.map((example) => (
                         <li key={example.name}>
                             <button onClick={() => void open_new(example.text)}>
+                                {pictures[example.name] && <img src={pictures[example.name]} alt="" />}
                                 <b>{example.name.replaceAll("_", " ")}</b>
                                 <span>{example.title}</span>
                             </button>

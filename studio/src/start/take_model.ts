@@ -9,6 +9,7 @@ import { mesh_endings } from "../form/path_control";
 import { report } from "../state/notices";
 import { edit, open_text } from "../state/recipe";
 import { starting, tab, text } from "../state/store";
+import { offer_picture, picture_endings } from "./take_picture";
 
 export const sending = signal("");
 /** The machine of new recipes; empty: the recipe's own, or the usual one. */
@@ -68,10 +69,14 @@ export async function take_files(files: FileList | File[]): Promise<void> {
         open_text(await file.text());
         return;
     }
+    if (picture_endings.some((ending) => name.endsWith(ending))) {
+        offer_picture(file);
+        return;
+    }
     if (!mesh_endings.some((ending) => name.endsWith(ending))) {
         report(
             new Error(
-                `${file.name}: not a model. STL, OBJ, PLY and 3MF files can be dropped, and recipes (TOML).`,
+                `${file.name}: not a model. STL, OBJ, PLY and 3MF files can be dropped, pictures, and recipes (TOML).`,
             ),
         );
         return;

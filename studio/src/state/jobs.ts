@@ -9,7 +9,7 @@ import { edits_wait, forget_pending } from "./recipe";
 import { build_progress, building, job, layer, mistakes, needs_search, opened, text, values } from "./store";
 import { shown_design } from "../view/design";
 
-/** Changes within this time make one job, ms. */
+/** Changes within this time of a job's begin make the next one, ms: the first change waits for nothing. */
 const gather = 60;
 /** A job that has been building for less is not given up for a newer one: a moving slider shows results. */
 const patience = 300;
@@ -22,8 +22,8 @@ let timer = 0;
 /** Asks for the values and the job of the recipe as it is now. */
 export function refresh(): void {
     if (timer) return;
-    const left = controller ? begun + patience - Date.now() : 0;
-    timer = window.setTimeout(start, Math.max(gather, left));
+    const rest = controller ? patience : gather;
+    timer = window.setTimeout(start, Math.max(0, begun + rest - Date.now()));
 }
 
 function start(): void {

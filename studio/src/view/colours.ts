@@ -16,6 +16,7 @@ export function read_colours(): Colours {
         cut: read(style, "--view-cut"),
         support_cut: read(style, "--view-support-cut"),
         layer: read(style, "--view-layer"),
+        fault: read(style, "--view-fault"),
         grid: read(style, "--view-grid"),
     };
 }

@@ -1,4 +1,5 @@
 // Chooses the cut: its axis, its place and its side.
+import { PlaceButton } from "../place/menu";
 import { job } from "../state/store";
 import { Segments } from "../shell/segments";
 import { type CutAxis, cut, cut_axis, cut_below, cut_share } from "./cut";
@@ -64,6 +65,7 @@ export function CutBar() {
                     </button>
                 </>
             )}
+            <PlaceButton />
         </div>
     );
 }

@@ -22,6 +22,8 @@ uniform float grid_pitch;
 uniform sampler3D paint;   // codes: 0 plain, 1 softer and 2 stiffer than asked, 3 to 255 along the scale
 uniform bool is_painted;
 uniform vec3 paint_lo, paint_hi;
+uniform int faults;        // boxes that are painted
+uniform vec3 fault_lo[64], fault_hi[64], fault_colour;
 
 in vec2 at;
 out vec4 colour;
@@ -38,7 +40,7 @@ float around(vec3 p) {  // as value, but nothing is outside the box, except belo
 
 vec3 gradient(vec3 p) {  // samples on two shells, wide enough to smooth the steps between slices
     const vec3 k = vec3(1.0, -1.0, 0.0);
-    float h = 1.1 * voxel, g = 1.9 * voxel;
+    float h = (fine ? 1.1 : 1.8) * voxel, g = 1.9 * voxel;
     if (!fine) {
         return -(k.xyy * around(p + k.xyy * h) + k.yyx * around(p + k.yyx * h) +
                  k.yxy * around(p + k.yxy * h) + k.xxx * around(p + k.xxx * h));
@@ -93,6 +95,13 @@ vec3 painted(vec3 p, vec3 plain) {
     return on_scale((code - 3.0) / 252.0);
 }
 
+bool is_faulty(vec3 p) {
+    for (int i = 0; i < faults; ++i) {
+        if (all(greaterThanEqual(p, fault_lo[i] - voxel)) && all(lessThanEqual(p, fault_hi[i] + voxel))) return true;
+    }
+    return false;
+}
+
 void main() {
     vec4 beyond = unproject * vec4(at, 1.0, 1.0);
     vec3 ray = normalize(beyond.xyz / beyond.w - eye);
@@ -129,7 +138,7 @@ void main() {
     bool at_entry = t == first;
     if (!at_entry) {
         float outside = before, inside = t;
-        int halvings = fine ? 5 : 2;
+        int halvings = fine ? 5 : 4;
         for (int i = 0; i < halvings; ++i) {
             float half_way = 0.5 * (outside + inside);
             if (value(eye + safe * half_way) >= surface) inside = half_way; else outside = half_way;
@@ -150,6 +159,7 @@ void main() {
         if (dot(normal, ray) > 0.0) normal = normalize(normal - ray * dot(normal, ray));
         colour = vec4(shade(is_support ? support_colour : painted(p, part_colour), normal, ray, p), 1.0);
     }
+    if (is_faulty(p)) colour.rgb = mix(colour.rgb, fault_colour, 0.75);
     float band = max(layer_half, 0.35 * voxel);
     float ring = 1.0 - smoothstep(band, band + 0.35 * voxel, abs(p.z - layer_z));
     if (!on_cut || cut_axis != 2) colour.rgb = mix(colour.rgb, layer_colour, 0.85 * ring);

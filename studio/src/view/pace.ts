@@ -3,9 +3,9 @@
 /** Frames that are further apart belong to different movements, ms. */
 const pause = 500;
 /** Shares of the screen's pixels along an edge. Few of them: another size of the canvas costs time itself. */
-const scales = [1, 0.7, 0.5, 0.36];
-const slow = 75;
-const fast = 30;
+const scales = [1, 0.7, 0.5, 0.36, 0.27];
+const slow = 33;
+const fast = 14;
 /** Frames after a change of the resolution until the next one. */
 const rest = 5;
 

@@ -14,6 +14,7 @@ export interface Colours {
     cut: Triple;
     support_cut: Triple;
     layer: Triple;
+    fault: Triple;
     grid: Triple;
 }
 
@@ -22,11 +23,16 @@ export interface Scene {
     layer_z: number;
     layer_height: number;
     colours: Colours;
+    /** Boxes in which the surface is painted as faulty, of which the first are drawn. */
+    faults: { lo: Triple; hi: Triple }[];
     /** False while the view moves: fewer samples. */
     fine: boolean;
     /** Length of a step in voxels: longer ones are faster and may miss thin walls. */
     stride: number;
 }
+
+/** As many as the shader takes. */
+const most_faults = 64;
 
 export class Renderer {
     private readonly program: WebGLProgram;
@@ -231,7 +237,17 @@ export class Renderer {
         this.triple("support_cut_colour", colours.support_cut);
         this.triple("layer_colour", colours.layer);
         this.triple("grid_colour", colours.grid);
+        this.triple("fault_colour", colours.fault);
+        this.set_faults(scene.faults.slice(0, most_faults));
         gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    private set_faults(faults: Scene["faults"]): void {
+        const gl = this.gl;
+        gl.uniform1i(this.place("faults"), faults.length);
+        if (!faults.length) return;
+        gl.uniform3fv(this.place("fault_lo"), faults.flatMap((one) => one.lo));
+        gl.uniform3fv(this.place("fault_hi"), faults.flatMap((one) => one.hi));
     }
 
     private set_space(volume: Volume, scene: Scene): void {

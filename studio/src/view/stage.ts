@@ -81,8 +81,10 @@ export class Stage {
     }
 
     set_scene(scene: Omit<Scene, "fine" | "stride">): void {
-        this.scene = { ...scene, fine: true, stride: fine_stride };
-        this.invalidate();
+        const next = { ...scene, fine: true, stride: fine_stride };
+        const same = JSON.stringify(next) === JSON.stringify(this.scene);
+        this.scene = next;
+        if (!same) this.invalidate();
     }
 
     /** Something has changed: draws quickly, and finely when nothing changes for a while. */
@@ -158,6 +160,24 @@ export class Stage {
         const at = new Vector3(...p).project(this.orbit.camera);
         if (at.z > 1) return null;
         return [((at.x + 1) / 2) * this.size.width, ((1 - at.y) / 2) * this.size.height];
+    }
+
+    /** The point at a pixel of the view, as far from the eye's plane as `p`. */
+    place_beside(p: Triple, x: number, y: number): Triple {
+        const depth = new Vector3(...p).project(this.orbit.camera).z;
+        const at = new Vector3((x / this.size.width) * 2 - 1, 1 - (y / this.size.height) * 2, depth);
+        return at.unproject(this.orbit.camera).toArray();
+    }
+
+    /** Size on the screen of a length of 1 mm at a point, px. */
+    pixels_a_mm(p: Triple): number {
+        const { camera } = this.orbit;
+        const depth = new Vector3(...p).sub(camera.position).dot(camera.getWorldDirection(new Vector3()));
+        return this.size.height / (2 * Math.max(depth, 1e-6) * Math.tan(((camera.fov / 2) * Math.PI) / 180));
+    }
+
+    place_at_middle(): Triple | null {
+        return this.place_at(this.size.width / 2, this.size.height / 2);
     }
 
     /** The place of the part at a pixel of the view; null when there is none. */

@@ -14,6 +14,8 @@ declare module "three" {
         multiplyScalar(scale: number): this;
         normalize(): this;
         length(): number;
+        dot(other: Vector3): number;
+        toArray(): [number, number, number];
         project(camera: PerspectiveCamera): this;
         unproject(camera: PerspectiveCamera): this;
     }
@@ -36,6 +38,7 @@ declare module "three" {
         constructor(fov?: number, aspect?: number, near?: number, far?: number);
         updateProjectionMatrix(): void;
         updateMatrixWorld(force?: boolean): void;
+        getWorldDirection(into: Vector3): Vector3;
         lookAt(x: number, y: number, z: number): void;
     }
 }

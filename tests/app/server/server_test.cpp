@@ -318,6 +318,30 @@ TEST_CASE("a newer recipe of a session ends the older one's build", "[server]") 
               .contains("message"));
 }
 
+TEST_CASE("a newer recipe of a session ends what is computed for the one before", "[server]") {
+    RunningServer server;
+    // Some seconds of foam.
+    const std::string recipe = "[part]\nshape = \"box\"\nsize = [60, 60, 60]\n[foam]\ncell = 1\nbeam = 0.1\n";
+    const std::string job = server.build(recipe);
+    int status = 0;
+    std::thread asking(
+        [&] { status = server.send("GET", "/api/jobs/" + job + "/volume?n=256&session=test")->status; });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    // One with mistakes leaves the job on the page.
+    server.json("POST", "/api/jobs", {{"text", "[part]\n"}, {"session", "test"}, {"sequence", 1000}}, 422);
+    CHECK_FALSE(server.state().jobs.work_of("test")->cancelled());
+    const auto begun = std::chrono::steady_clock::now();
+    server.json(
+        "POST", "/api/jobs",
+        {{"text", "[part]\nshape = \"sphere\"\nradius = 5\n"}, {"session", "test"}, {"sequence", 1001}});
+    asking.join();
+    CHECK(status == 409);
+    CHECK(std::chrono::steady_clock::now() - begun < std::chrono::seconds(5));
+    // Other sessions are not concerned, and the next request is.
+    CHECK(server.send("GET", "/api/jobs/" + job + "/volume?n=8&session=test")->status == 200);
+    CHECK(server.state().jobs.work_of("other") == nullptr);
+}
+
 TEST_CASE("events of a session come to its listeners", "[server]") {
     RunningServer server;
     const std::string job = server.build(foam);
