@@ -73,25 +73,27 @@ for (const scheme of ["light", "dark"]) {
     });
 
     test(`a search shows its steps and its designs, then the part; ${scheme}`, async () => {
-        const studio = await open_studio(browser, { recipe: search, scheme, wait: false });
+        const recipe = search.replace("volume = 0.4", "volume = 0.4\niterations = 100");
+        const studio = await open_studio(browser, { recipe, scheme, wait: false });
         const { page } = studio;
         await page.getByText("This part has to be optimised first.").waitFor();
         assert.equal((await studio.state()).job, null);
         assert.deepEqual(await violations(page), [], "before");
         await page.locator(".search-card").getByRole("button", { name: "Optimise" }).click();
         assert.equal((await studio.state()).tab, "stiffness");
-        await studio.until(() => window.__studio.state.searched?.steps.length > 5 && window.__studio.state.design);
-        await studio.until(() => window.__studio.state.voxels > 30);
-        const early = await studio.state();
-        await studio.until((step) => window.__studio.state.design?.step > step, early.design.step);
+        const early = await studio.until(() => {
+            const { searched, design, voxels } = window.__studio.state;
+            return searched?.steps.length > 5 && voxels > 30 && design?.step;
+        });
+        await studio.until((step) => window.__studio.state.design?.step > step, await early.jsonValue());
         await studio.until(() => {
             const { searched, job, building, design } = window.__studio.state;
             return searched.state === "done" && job && !building && !design;
         });
-        assert.equal((await studio.state()).searched.steps.length, 20);
-        assert.equal(await fact(page, "Report of the search", "compliance"), "3 N mm");
+        assert.equal((await studio.state()).searched.steps.length, 100);
+        assert.equal(await fact(page, "Report of the search", "compliance"), "2.2 N mm");
         assert.equal(await fact(page, "Report of the search", "volume"), "40 %");
-        await page.getByLabel(/^Steps of the search: compliance, N mm, now 3 at a volume of 40 %/).waitFor();
+        await page.getByLabel(/^Steps of the search: compliance, N mm, now 2.2 at a volume of 40 %/).waitFor();
         await page.getByText("The search has done all its steps.").waitFor();
         assert.equal(await page.locator(".search-card").count(), 0);
         assert.deepEqual(await violations(page), [], "after");
