@@ -16,7 +16,6 @@
 #include "app/ranks/run_on_ranks.h"
 #include "app/reports/stiffness_report.h"
 #include "engine/base/error.h"
-#include "recipe/base_material.h"
 #include "recipe/build/foam_modulus.h"
 #include "recipe/settings.h"
 
@@ -72,17 +71,9 @@ Homogenizing planned(const HomogenizeCommand& command, const CancelToken& cancel
     Homogenizing plan{command.recipe.read(false), command.options, {}, {}};
     const Recipe& recipe = plan.recipe;
     StiffnessOptions& options = plan.options;
-    if (!recipe.foam)
-        throw InputError(
-            "[foam] is missing: there is nothing to homogenise; accepted: a recipe with one, or --cell and "
-            "--beam");
     options.cancel = &cancel;
-    if (recipe.material) {
-        options.material = base_material(*recipe.material).elastic;
-        if (!(options.material.young > 0)) options.material.young = 1;  // results are relative to it
-    }
+    options.material = homogenized_material(recipe);
     if (options.samples == 0) options.samples = command.table ? samples_of_a_law : 1;
-    check_uniform(*recipe.foam);
     if (!command.table) {
         plan.solves = foam_solves(recipe, options);
         return plan;

@@ -76,10 +76,7 @@ void draw(const StructureCommand& command, const Recipe& recipe, const Optimized
 
 Recipe optimized_recipe(const StructureCommand& command) {
     Recipe recipe = command.recipe.read();
-    if (!recipe.optimize)
-        throw InputError(
-            "[optimize] is missing: there is nothing to optimise; accepted: a recipe with [optimize], "
-            "[[load]] and [[anchor]]");
+    check_is_optimized(recipe);
     return recipe;
 }
 

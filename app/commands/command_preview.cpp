@@ -31,12 +31,7 @@ struct PreviewCommand {
 };
 
 void paint_modulus(const BuiltJob& built, PreviewCommand& options) {
-    if (!built.modulus) {
-        throw InputError(
-            "--paint modulus: the foam's modulus is unknown; accepted: [material] as well, and foam.law if "
-            "there is no built-in law");
-    }
-    options.picture.paint = modulus_paint(*built.foam->modulus, *built.modulus);
+    options.picture.paint = modulus_paint(built, "--paint modulus");
     if (!options.quiet) std::fputs((modulus_legend(*built.modulus) + "\n").c_str(), stderr);
 }
 

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/error.h"
+
 namespace lamella {
 
 namespace {
@@ -27,18 +29,54 @@ dvec3 on_scale(double share) {
     return scale[i] * (1 - t) + scale[i + 1] * t;
 }
 
-}  // namespace
+/// The modulus at a place: beside the asked one, or its share of the logarithmic scale.
+struct PlacedModulus {
+    enum class Kind : unsigned char { softer, stiffer, on_scale };
+    Kind kind = Kind::on_scale;
+    double share = 0;
+};
 
-std::function<dvec3(dvec3)> modulus_paint(const BuiltModulus& modulus, const ModulusReport& report) {
+std::function<PlacedModulus(dvec3)> placed_modulus(const BuiltModulus& modulus, const ModulusReport& report) {
     const double low = std::log(report.predicted.lo), width = std::log(report.predicted.hi) - low;
-    return [modulus, low, width](dvec3 p) {
+    return [modulus, low, width](dvec3 p) -> PlacedModulus {
+        using Kind = PlacedModulus::Kind;
         const double made = modulus.made->at(p);
         if (modulus.asked) {
             const double asked = modulus.asked->asked->at(p);
-            if (made < asked * (1 - modulus_tolerance)) return softer;
-            if (made > asked * (1 + modulus_tolerance)) return stiffer;
+            if (made < asked * (1 - modulus_tolerance)) return {Kind::softer};
+            if (made > asked * (1 + modulus_tolerance)) return {Kind::stiffer};
         }
-        return on_scale(width > 0 ? (std::log(made) - low) / width : 0.5);
+        return {Kind::on_scale, width > 0 ? std::clamp((std::log(made) - low) / width, 0.0, 1.0) : 0.5};
+    };
+}
+
+void check_has_modulus(const BuiltJob& built, const std::string& who) {
+    if (built.modulus) return;
+    throw InputError(
+        who +
+        ": the foam's modulus is unknown; accepted: [material] as well, and foam.law if there is "
+        "no built-in law");
+}
+
+}  // namespace
+
+std::function<dvec3(dvec3)> modulus_paint(const BuiltJob& built, const std::string& who) {
+    check_has_modulus(built, who);
+    return [place = placed_modulus(*built.foam->modulus, *built.modulus)](dvec3 p) {
+        const PlacedModulus found = place(p);
+        if (found.kind == PlacedModulus::Kind::softer) return softer;
+        return found.kind == PlacedModulus::Kind::stiffer ? stiffer : on_scale(found.share);
+    };
+}
+
+std::function<std::uint8_t(dvec3)> modulus_codes(const BuiltJob& built, const std::string& who) {
+    check_has_modulus(built, who);
+    return [place = placed_modulus(*built.foam->modulus, *built.modulus)](dvec3 p) -> std::uint8_t {
+        const PlacedModulus found = place(p);
+        if (found.kind == PlacedModulus::Kind::softer) return ModulusCode::softer;
+        if (found.kind == PlacedModulus::Kind::stiffer) return ModulusCode::stiffer;
+        constexpr int span = ModulusCode::most - ModulusCode::least;
+        return static_cast<std::uint8_t>(ModulusCode::least + std::lround(span * found.share));
     };
 }
 

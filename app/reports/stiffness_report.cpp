@@ -5,8 +5,26 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/error.h"
+#include "recipe/base_material.h"
+#include "recipe/build/foam_modulus.h"
 
 namespace lamella {
+
+IsotropicMaterial homogenized_material(const Recipe& recipe) {
+    if (!recipe.foam)
+        throw InputError(
+            "[foam] is missing: there is nothing to homogenise; accepted: a recipe with one, or --cell and "
+            "--beam");
+    check_uniform(*recipe.foam);
+    if (!recipe.material) return {};
+    IsotropicMaterial material = base_material(*recipe.material).elastic;
+    if (!(material.young > 0)) material.young = 1;
+    return material;
+}
 
 std::string stiffness_text(const FoamRecipe& foam, const IsotropicMaterial& material,
                            const FoamStiffness& found) {
@@ -72,6 +90,36 @@ nlohmann::ordered_json stiffness_json(const FoamRecipe& foam, const IsotropicMat
             {"E_hashin_shtrikman", hashin_shtrikman(material, found.mean(density_of)).young},
             {"stiffness", c},
             {"samples", std::move(samples)}};
+}
+
+nlohmann::ordered_json directional_json(const ElasticTensor& stiffness) {
+    constexpr int polar = 25, around = 48;
+    const ElasticTensor compliance = compliance_of(stiffness);
+    auto young = nlohmann::ordered_json::array();
+    for (int ring = 0; ring < polar; ++ring) {
+        const double down = std::numbers::pi * ring / (polar - 1);
+        for (int turn = 0; turn < around; ++turn) {
+            const double angle = 2 * std::numbers::pi * turn / around;
+            young.push_back(directional_modulus(
+                compliance,
+                {std::sin(down) * std::cos(angle), std::sin(down) * std::sin(angle), std::cos(down)}));
+        }
+    }
+    return {{"polar", polar}, {"around", around}, {"young", std::move(young)}};
+}
+
+nlohmann::ordered_json law_json(const FoamRecipe& foam) {
+    const auto law = known_law(foam);
+    if (!law) return nullptr;
+    auto points = nlohmann::ordered_json::array();
+    for (const FoamLawPoint& point : law->points) {
+        points.push_back({{"ratio", point.ratio},
+                          {"density", point.density},
+                          {"young", point.young},
+                          {"poisson", point.poisson},
+                          {"spread", point.spread}});
+    }
+    return points;
 }
 
 }  // namespace lamella

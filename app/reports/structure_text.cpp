@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/error.h"
 #include "recipe/build/json_triple.h"
 #include "recipe/optimize_recipe.h"
 
@@ -78,6 +79,13 @@ std::string cases_text(const StructureReport& report) {
 
 }  // namespace
 
+void check_is_optimized(const Recipe& recipe) {
+    if (recipe.optimize) return;
+    throw InputError(
+        "[optimize] is missing: there is nothing to optimise; accepted: a recipe with [optimize], "
+        "[[load]] and [[anchor]]");
+}
+
 std::string step_text(const OptimizationStep& step, int steps) {
     const std::string aim = step.appearance > 0 ? fmt::format("A {:.4g}  C {:.4g} times the least",
                                                               step.appearance, step.compliance)
@@ -121,6 +129,16 @@ std::string structure_text(const StructureReport& report) {
     return text + cases_text(report);
 }
 
+nlohmann::ordered_json step_json(const OptimizationStep& step) {
+    return {{"appearance", step.appearance},
+            {"compliance", step.compliance},
+            {"volume", step.volume},
+            {"greyness", step.greyness},
+            {"change", step.change},
+            {"sharpness", step.sharpness},
+            {"solver_iterations", step.solver_iterations}};
+}
+
 nlohmann::ordered_json structure_json(const StructureReport& report) {
     auto cases = nlohmann::ordered_json::array(), history = nlohmann::ordered_json::array();
     for (const CaseReport& load : report.cases) {
@@ -132,15 +150,7 @@ nlohmann::ordered_json structure_json(const StructureReport& report) {
                          {"peak_von_mises_mpa", load.peak_stress},
                          {"stress_at_mm", json_triple(load.stress_at)}});
     }
-    for (const OptimizationStep& i : report.history) {
-        history.push_back({{"appearance", i.appearance},
-                           {"compliance", i.compliance},
-                           {"volume", i.volume},
-                           {"greyness", i.greyness},
-                           {"change", i.change},
-                           {"sharpness", i.sharpness},
-                           {"solver_iterations", i.solver_iterations}});
-    }
+    for (const OptimizationStep& step : report.history) history.push_back(step_json(step));
     return {{"dimensions", report.dimensions},
             {"grid", {report.size.x, report.size.y, report.size.z}},
             {"elements", report.elements},

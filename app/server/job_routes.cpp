@@ -18,7 +18,10 @@ HttpReply build(ServerState& state, const HttpRequest& request) {
         if (!json["sequence"].is_number_integer()) throw HttpError(400, "sequence: accepted: a whole number");
         sequence = json["sequence"].get<std::int64_t>();
     }
-    return state.jobs.build(json["text"].get<std::string>(), session, sequence)->facts();
+    const Json searches = json.value("searches", Json(true));
+    if (!searches.is_boolean()) throw HttpError(400, "searches: accepted: true, false");
+    return state.jobs.build(json["text"].get<std::string>(), session, sequence, searches.get<bool>())
+        ->facts();
 }
 
 HttpReply check(ServerState& state, const HttpRequest& request) {

@@ -4,8 +4,21 @@
 #include <algorithm>
 
 #include "app/server/http_server.h"
+#include "recipe/build/support_plan.h"
+#include "recipe/structure/optimize_part.h"
 
 namespace lamella {
+
+namespace {
+
+/// Without a folder for plans no search would ever be kept: then the build does it.
+void check_is_searched(const Recipe& recipe) {
+    const std::filesystem::path plans = default_plan_folder();
+    if (!recipe.optimize || plans.empty() || has_optimized(first_piece(recipe), plans)) return;
+    throw HttpError(428, "the part has to be optimised first; accepted: POST its recipe to /api/optimize");
+}
+
+}  // namespace
 
 std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::int64_t sequence) {
     constexpr std::size_t most_sessions = 64;
@@ -54,11 +67,12 @@ void JobStore::hold(std::shared_ptr<const ServedJob> job) {
 }
 
 std::shared_ptr<const ServedJob> JobStore::build(const std::string& text, const std::string& session,
-                                                 std::int64_t sequence) {
+                                                 std::int64_t sequence, bool searches) {
     const std::shared_ptr<CancelToken> cancel = begin(session, sequence);
-    const std::string id = served_job_id(read_served_recipe(text, folder_), text, &inputs_);
+    const Recipe recipe = read_served_recipe(text, folder_);
     end_work(session, sequence);  // of a recipe with mistakes the page shows the job before
-    if (auto job = held(id)) return job;
+    if (auto job = held(served_job_id(recipe, text, &inputs_))) return job;
+    if (!searches) check_is_searched(recipe);
     BuildControl control;
     control.threads = threads_;
     control.cancel = cancel.get();

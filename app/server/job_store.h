@@ -19,10 +19,11 @@ class JobStore {
         : folder_(folder), events_(events), threads_(threads), most_(most) {}
 
     /// Returns the job of a recipe's text; builds it if it is not held. Progress goes to the session. A build
-    /// of the session with a lower number is cancelled. Throws RecipeMistakes, and Interrupted when a build
-    /// with a higher number came.
+    /// of the session with a lower number is cancelled. `searches`: whether the build does the search of
+    /// [optimize] where its result is not kept. Throws RecipeMistakes, HttpError 428 for a job that needs a
+    /// search that it may not do, and Interrupted when a build with a higher number came.
     std::shared_ptr<const ServedJob> build(const std::string& text, const std::string& session,
-                                           std::int64_t sequence);
+                                           std::int64_t sequence, bool searches = true);
     /// Returns what tells slow work for a session that a newer recipe of the session has come; null for a
     /// session that has built nothing.
     std::shared_ptr<CancelToken> work_of(const std::string& session);

@@ -10,6 +10,7 @@
 
 #include "app/reports/grey_page.h"
 #include "app/server/http_server.h"
+#include "app/server/voxel_grid.h"
 #include "engine/base/cancel_token.h"
 #include "engine/base/parallel.h"
 #include "engine/contours/coverage.h"
@@ -18,7 +19,6 @@
 #include "printers/gcode/layer_beads.h"
 #include "printers/masks/png_writer.h"
 #include "printers/registry.h"
-#include "recipe/build/json_triple.h"
 
 namespace lamella {
 
@@ -49,14 +49,6 @@ void append(std::string& bytes, T value) {
     char raw[sizeof value];
     std::memcpy(raw, &value, sizeof value);  // NOLINT: little-endian, as every machine that this runs on
     bytes.append(raw, sizeof value);
-}
-
-/// Returns a head of JSON with its length before it.
-std::string headed(const Json& head) {
-    const std::string text = head.dump();
-    std::string bytes;
-    append(bytes, static_cast<std::uint32_t>(text.size()));
-    return bytes + text;
 }
 
 /// Mixes two colours into the ground, by the shares that they cover.
@@ -237,23 +229,20 @@ Json area_curve(const ServedJob& job, int values, const PassControl& control) {
     return {{"layers_a_value", each}, {"area_mm2", part}, {"support_area_mm2", supports}};
 }
 
+RowBand voxel_page(const VoxelGrid& grid) {
+    RowBand page = page_of({{grid.lo.x, grid.lo.y}, {grid.hi().x, grid.hi().y}}, grid.voxel, 3);
+    page.across_origin = grid.lo.y;
+    page.across_pitch = grid.voxel;
+    return page;
+}
+
 std::string coverage_volume(const ServedJob& job, int longest, const PassControl& control) {
-    const Box& bounds = job.job().bounds;
-    const dvec3 size = bounds.size();
-    const double voxel = std::max({size.x, size.y, size.z}) / longest;
-    const auto voxels = [&](double length) {
-        return std::max(1, static_cast<int>(std::ceil(length / voxel - 1e-9)));
-    };
-    const int nx = voxels(size.x), ny = voxels(size.y), nz = voxels(size.z);
-    const dvec3 extent = voxel * dvec3(nx, ny, nz), lo = bounds.center() - 0.5 * extent;
-    RowBand page = page_of({{lo.x, lo.y}, {lo.x + extent.x, lo.y + extent.y}}, voxel, 3);
-    page.across_origin = lo.y;  // y upward
-    page.across_pitch = voxel;
-    const std::size_t plane = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
-    std::string bytes = headed(
-        {{"size", {nx, ny, nz}}, {"lo", json_triple(lo)}, {"hi", json_triple(lo + extent)}, {"channels", 2}});
+    const VoxelGrid grid = voxel_grid(job.job().bounds, longest);
+    const RowBand page = voxel_page(grid);
+    const std::size_t plane = grid.plane();
+    std::string bytes = headed(grid_head(grid, 2));
     const std::size_t head = bytes.size();
-    bytes.resize(head + 2 * plane * static_cast<std::size_t>(nz));
+    bytes.resize(head + 2 * grid.voxels());
     const auto put = [&](const SliceField& slice, std::size_t k, std::size_t channel) {
         const std::vector<std::uint8_t> grey = grey_page(slice, page, true);
         for (std::size_t i = 0; i < plane; ++i)
@@ -261,9 +250,9 @@ std::string coverage_volume(const ServedJob& job, int longest, const PassControl
     };
     ThreadArena arena(control.threads);
     arena.execute([&] {
-        parallel_for(static_cast<std::size_t>(nz), [&](std::size_t k) {
+        parallel_for(static_cast<std::size_t>(grid.size.z), [&](std::size_t k) {
             stop_if_cancelled(control.cancel);
-            const double z = lo.z + (static_cast<double>(k) + 0.5) * voxel;
+            const double z = grid.lo.z + (static_cast<double>(k) + 0.5) * grid.voxel;
             SliceContext context;
             put(context.slice(*job.job().part, z), k, 0);
             if (job.job().supports) put(context.slice(*job.job().supports, z), k, 1);

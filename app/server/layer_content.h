@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/server/served_job.h"
+#include "app/server/voxel_grid.h"
 
 namespace lamella {
 
@@ -33,6 +34,9 @@ nlohmann::ordered_json layer_paths(const ServedJob& job, int layer);
 /// Returns the areas of at most `values` layers, evenly spread: {"layers_a_value", "area_mm2",
 /// "support_area_mm2"}, to about a percent. Throws Interrupted when cancelled.
 nlohmann::ordered_json area_curve(const ServedJob& job, int values, const PassControl& control);
+
+/// Returns the rows of a plane of voxels, upward along y.
+RowBand voxel_page(const VoxelGrid& grid);
 
 /// Returns a JSON head, its length in 4 bytes before it, and the coverage of part and supports, two bytes a
 /// voxel, x fastest, then y, then z. The longest side of the job's bounds has `longest` voxels.

@@ -3,7 +3,9 @@
 #include <charconv>
 #include <map>
 
+#include "app/reports/modulus_paint.h"
 #include "app/server/layer_content.h"
+#include "app/server/part_modulus.h"
 #include "app/server/server_state.h"
 #include "printers/common/thumbnail.h"
 #include "recipe/output/preview_render.h"
@@ -81,6 +83,9 @@ HttpReply frame(const Asked& asked, const HttpRequest& request, int threads) {
     options.threads = threads;
     options.steady = true;
     options.smooth = request.integer("smooth", 1, 0, 1) == 1;
+    const std::string paint = request.text("paint", "none");
+    if (paint != "none" && paint != "modulus") throw HttpError(400, "paint: accepted: none, modulus");
+    if (paint == "modulus") options.paint = modulus_paint(asked.job->built, "paint");
     return {"image/png", png_file(asked.job->scene(options.width, threads)->render(options))};
 }
 
@@ -115,6 +120,10 @@ void add_layer_routes(ServerState& state) {
         const SessionWork work(state, request);
         return HttpReply("application/octet-stream",
                          coverage_volume(*a.job, request.integer("n", 96, 8, 256), work.control));
+    });
+    add("modulus", [threads](const Asked& a, const HttpRequest& request) {
+        return HttpReply("application/octet-stream",
+                         modulus_volume(*a.job, request.integer("n", 96, 8, 256), threads));
     });
     add("frame.png",
         [threads](const Asked& a, const HttpRequest& request) { return frame(a, request, threads); });

@@ -25,9 +25,6 @@ namespace lamella {
 
 namespace {
 
-/// The name that messages give the recipe.
-std::string name_of(const ServedFolder& folder) { return (folder.path() / "recipe.toml").string(); }
-
 std::uint64_t hash_of(const std::string& text) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
@@ -77,8 +74,12 @@ BuiltJob build_part(const Recipe& recipe, const BuildControl& control, std::opti
 
 }  // namespace
 
+std::string served_recipe_name(const ServedFolder& folder) {
+    return (folder.path() / "recipe.toml").string();
+}
+
 Recipe read_served_recipe(const std::string& text, const ServedFolder& folder) {
-    const std::string name = name_of(folder);
+    const std::string name = served_recipe_name(folder);
     try {
         RecipeDraft draft;
         draft.use_profiles(machine_profiles(""));
@@ -112,7 +113,7 @@ std::shared_ptr<const ServedJob> build_served_job(const std::string& text, const
         served->parts = std::max(1, static_cast<int>(served->job().objects.size()));
         stop_if_cancelled(control.cancel);
     } catch (const InputError& error) {
-        throw RecipeMistakes(error.what(), name_of(folder));
+        throw RecipeMistakes(error.what(), served_recipe_name(folder));
     }
     return served;
 }
@@ -175,6 +176,7 @@ nlohmann::ordered_json ServedJob::facts() const {
             {"axes", axes_of(*this)},
             {"supports", job().supports != nullptr},
             {"parts", parts},
+            {"modulus", built.modulus ? modulus_json(*built.modulus) : Json(nullptr)},
             {"notes", notes},
             {"display", display}};
 }

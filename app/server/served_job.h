@@ -56,6 +56,9 @@ std::shared_ptr<const ServedJob> build_served_job(const std::string& text, const
 /// Reads a recipe's text. Throws RecipeMistakes.
 Recipe read_served_recipe(const std::string& text, const ServedFolder& folder);
 
+/// Returns the name that messages give the recipe.
+std::string served_recipe_name(const ServedFolder& folder);
+
 /// Returns the id that the job of a recipe and its text will have.
 std::string served_job_id(const Recipe& recipe, const std::string& text, InputCache* inputs = nullptr);
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/server/analysis_store.h"
 #include "app/server/http_server.h"
 #include "app/server/job_store.h"
 #include "app/server/output_store.h"
@@ -51,6 +52,7 @@ struct ServerState {
     JobStore jobs;
     OutputStore outputs;
     ServedPrinter printer;
+    AnalysisStore analyses;
     ComputeTurn::Turns turns;
     std::mutex own_recipes_mutex;
     std::set<std::filesystem::path> own_recipes;  ///< which may be written again
@@ -71,6 +73,7 @@ void add_job_routes(ServerState& state);
 void add_layer_routes(ServerState& state);
 void add_output_routes(ServerState& state);
 void add_print_routes(ServerState& state);
+void add_analysis_routes(ServerState& state);
 void add_page_routes(ServerState& state);
 
 /// Serves until `cancel` is set, and until a print that runs then was stopped with its heaters off.

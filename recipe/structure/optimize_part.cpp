@@ -130,9 +130,18 @@ OptimizedPart part_of(const Recipe& recipe, const FieldPtr& body, Gradings& grad
     return part;
 }
 
+std::filesystem::path kept_file(const std::filesystem::path& plans, const std::string& hash) {
+    return plans / (hash + ".bricks");
+}
+
 }  // namespace
 
 std::string optimize_hash(const Recipe& recipe) { return job_identity(search_problem(recipe)); }
+
+bool has_optimized(const Recipe& recipe, const std::filesystem::path& plans) {
+    if (plans.empty()) return false;
+    return read_kept(kept_file(plans, optimize_hash(recipe)), read_bricks).has_value();
+}
 
 OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const BuiltRegions& regions,
                             Gradings& gradings, const OptimizeOptions& options) {
@@ -141,7 +150,7 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
     std::filesystem::path file, search;
     if (!options.plans.empty()) {
         const std::string hash = job_identity(problem);
-        file = options.plans / (hash + ".bricks");
+        file = kept_file(options.plans, hash);
         search = options.plans / (hash + ".search");
     }
     if (!file.empty() && !options.anew) {

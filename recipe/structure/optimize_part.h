@@ -21,6 +21,15 @@ struct StructureReport;
 
 class InputCache;
 
+/// The design of a search between two iterations, in the space in which the part is designed.
+struct SearchedDesign {
+    glm::ivec3 size{0};                            ///< elements along x, y and z; in the plane one along z
+    Box box;                                       ///< of the elements, mm
+    const std::vector<ElementUse>* use = nullptr;  ///< of each element, x fastest
+    /// Returns the density of each element: above 0.5 is solid; of a foam its solid volume fraction.
+    std::function<std::vector<double>()> densities;
+};
+
 struct OptimizeOptions {
     std::filesystem::path plans{};  ///< folder for results; empty: none are read or kept
     bool anew = false;              ///< optimises even if the folder has the result
@@ -30,6 +39,8 @@ struct OptimizeOptions {
     int threads = 0;  ///< 0: one per core
     /// Called after each iteration with the number of iterations at most; may be empty.
     std::function<void(const OptimizationStep&, int iterations)> on_iteration{};
+    /// Called after on_iteration with the design, which lives as long as the call; may be empty.
+    std::function<void(const SearchedDesign&)> on_design{};
     /// Ends the search with the best design so far, which is no plan, but kept for `resume`; may be null.
     const CancelToken* cancel = nullptr;
     /// Called before the pattern of a skin is synthesised, which may take minutes; may be empty.
@@ -64,5 +75,8 @@ OptimizedPart optimize_part(const Recipe& recipe, const FieldPtr& body, const Bu
 
 /// Returns the hash of all that the result depends on.
 std::string optimize_hash(const Recipe& recipe);
+
+/// Whether the plan folder has the result of the recipe's problem.
+bool has_optimized(const Recipe& recipe, const std::filesystem::path& plans);
 
 }  // namespace lamella

@@ -177,6 +177,10 @@ void PlateSearch::search(AppearanceOptimizer& optimizer, StructureReport& report
             return;
         }
         if (options_.on_iteration) options_.on_iteration(report.history.back(), step_count(settings_));
+        if (options_.on_design) {
+            options_.on_design(
+                {domain_.size, domain_.box, &domain_.use, [&] { return optimizer.result().filtered; }});
+        }
     }
 }
 

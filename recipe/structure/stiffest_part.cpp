@@ -168,6 +168,12 @@ void PartOptimizer<Dim>::search(TopologyOptimizer<Dim>& optimizer, int iteration
             break;
         }
         if (options_.on_iteration) options_.on_iteration(report.history.back(), iterations);
+        if (options_.on_design) {
+            options_.on_design({domain_.size, domain_.box, &domain_.use, [&] {
+                                    optimizer.show_design();
+                                    return densities(optimizer.densities()).density;
+                                }});
+        }
     }
     optimizer.show_design();
     const OptimizationStep& last = report.history.back();

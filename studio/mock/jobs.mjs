@@ -1,5 +1,6 @@
 // Builds the jobs of recipes, or says what is wrong with them.
 import { createHash } from "node:crypto";
+import { modulus_of } from "./analyses.mjs";
 import { find_setting, profiles, table } from "./catalog.mjs";
 import { graded, make_field } from "./field.mjs";
 import { read_toml } from "./toml.mjs";
@@ -140,10 +141,11 @@ export function build_job(text, extents) {
             [0, 0, 1],
         ],
         supports,
+        modulus: modulus_of(values),
         notes,
         display,
     };
-    return { job: { info, field, bounds, height, count } };
+    return { job: { info, field, bounds, height, count, values } };
 }
 
 /** A report in the shape of `lamella check --json`. */

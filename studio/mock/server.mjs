@@ -6,6 +6,7 @@ import { createServer } from "node:http";
 import { extname } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
+import { make_analyses, modulus_volume } from "./analyses.mjs";
 import { examples, find_setting, machines, table } from "./catalog.mjs";
 import { build_job, check, objection, read_values } from "./jobs.mjs";
 import * as draw from "./layers.mjs";
@@ -86,6 +87,7 @@ export function make_mock({
         (event, data) => new Set(state.streams.values()).forEach((session) => send_event(session, event, data)),
     );
 
+    const analyses = make_analyses(send_event);
     const routes = {
         "GET /api/version": () => ({
             name: "lamella",
@@ -138,8 +140,15 @@ export function make_mock({
             state.sequences.set(body.session, body.sequence);
             const { job, mistakes } = build_job(body.text, state.extents);
             if (mistakes) throw new Refusal(422, "the recipe has mistakes", mistakes);
+            if (body.searches === false && !analyses.is_searched(body.text))
+                throw new Refusal(428, "the part has to be optimised first");
             state.jobs.set(job.info.job, job);
             return job.info;
+        },
+        "POST /api/optimize": (_, body) => {
+            const { job, mistakes } = build_job(body.text, state.extents);
+            if (mistakes) throw new Refusal(422, "the recipe has mistakes", mistakes);
+            return { status: 202, reply: analyses.optimize(job, body) };
         },
     };
 
@@ -159,6 +168,8 @@ export function make_mock({
             return start_output(job, JSON.parse(await read_body(request)));
         if (method === "POST" && rest[0] === "print")
             return printer.start(job, JSON.parse(await read_body(request)));
+        if (method === "POST" && rest[0] === "homogenize")
+            return { status: 202, reply: analyses.homogenize(job, JSON.parse(await read_body(request))) };
         if (method === "DELETE") return {};
         if (rest[0] === "print") return printer.outlook(job);
         const tag = `"${identity}-${createHash("sha256")
@@ -178,6 +189,8 @@ export function make_mock({
         if (rest[0] === "curve") return draw.curve(job, ask("values", 400));
         if (rest[0] === "volume")
             return bytes("application/octet-stream", draw.volume(job, Math.min(finest, ask("n", 96))), true);
+        if (rest[0] === "modulus")
+            return bytes("application/octet-stream", modulus_volume(job, ask("n", 96)), true);
         if (rest[0] === "frame.png")
             return bytes("image/png", draw.frame(ask("width", 512), ask("azimuth", 35)));
         if (rest[0] === "check") {
@@ -280,6 +293,8 @@ export function make_mock({
             reply = printer.reply(request.method, url.pathname.split("/")[3] ?? "");
         else if (url.pathname.startsWith("/api/outputs/"))
             reply = output_reply(url, request.method, response);
+        else if (url.pathname.startsWith("/api/analyses/"))
+            reply = analyses.reply(url, request.method, response);
         else {
             const route = routes[`${request.method} ${url.pathname}`];
             if (!route) throw new Refusal(404, "no such address");

@@ -12,6 +12,7 @@ import { StatusLine } from "./shell/status";
 import { DropShade } from "./start/drop";
 import { PictureDialog } from "./start/picture_dialog";
 import { Start } from "./start/start";
+import { StiffnessPanel } from "./stiffness/stiffness_panel";
 import { left_mode, ready, starting, tab, text } from "./state/store";
 import { TextEditor } from "./text/editor";
 import { View } from "./view/view";
@@ -37,7 +38,13 @@ function DesignPanel() {
     );
 }
 
-const panels = { design: DesignPanel, check: CheckPanel, make: MakePanel, print: PrintPanel };
+const panels = {
+    design: DesignPanel,
+    check: CheckPanel,
+    stiffness: StiffnessPanel,
+    make: MakePanel,
+    print: PrintPanel,
+};
 
 function Workbench() {
     const Panel = panels[tab.value];

@@ -15,6 +15,7 @@ import { listen_to_keys } from "./shell/keys";
 import { type Probe, probe } from "./shell/probe";
 import { start_theme } from "./shell/theme";
 import { listen_to_drops } from "./start/drop";
+import { ask_analyses_again, take_analysis } from "./stiffness/analyses";
 import { refresh } from "./state/jobs";
 import { report } from "./state/notices";
 import {
@@ -87,6 +88,7 @@ const listener = {
         refresh(); // a server that was started anew has lost its jobs
         void ask_again();
         void ask_for_print();
+        void ask_analyses_again();
     },
     progress: ({ what, done, of, text: doing }: Progress) => {
         if (what === "build") build_progress.value = { done, of, text: doing };
@@ -95,6 +97,7 @@ const listener = {
     output: take_output,
     print: take_print,
     print_message: take_message,
+    analysis: take_analysis,
 };
 void load().then((welcome) => {
     if (welcome) listen(listener);

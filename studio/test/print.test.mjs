@@ -27,7 +27,7 @@ after(() => browser.close());
 /** Opens the tab by its key and starts a print at the second port. */
 async function open_print(options = {}) {
     const studio = await open_studio(browser, { recipe: marlin_ball, ...options });
-    await studio.page.keyboard.press("Alt+4");
+    await studio.page.keyboard.press("Alt+5");
     return studio;
 }
 
@@ -167,7 +167,7 @@ test("the program prints to a machine, and stops it when it ends", { skip }, asy
     };
     await page.goto(program.address);
     await until(() => window.__studio?.state.job);
-    await page.keyboard.press("Alt+4");
+    await page.keyboard.press("Alt+5");
     await page.getByLabel("Port").selectOption("another path");
     await page.getByLabel("Path").fill(machine.port);
     await print();

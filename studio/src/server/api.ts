@@ -46,7 +46,7 @@ export const send_file = (file: File) =>
     });
 
 export const post_job = (text: string, sequence: number, signal: Signal) =>
-    get_json<Job>("/api/jobs", { method: "POST", json: { text, session, sequence }, signal });
+    get_json<Job>("/api/jobs", { method: "POST", json: { text, session, sequence, searches: false }, signal });
 
 const of_job = (job: Job, rest: string) => `/api/jobs/${job.job}/${rest}`;
 
@@ -89,6 +89,7 @@ export interface FrameView {
     elevation: number;
     cut: string;
     cut_at: number;
+    paint: string;
 }
 
 export function get_frame(job: Job, view: FrameView, signal: Signal): Promise<Blob> {

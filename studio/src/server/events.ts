@@ -1,5 +1,6 @@
 // The server's events: progress, outputs, and whether it is there at all.
 import { signal } from "@preact/signals";
+import type { News } from "./analysis";
 import { with_token } from "./http";
 import { session } from "./token";
 import type { Output, Print, PrintMessage, Progress } from "./types";
@@ -14,6 +15,7 @@ export interface Listener {
     output(output: Output): void;
     print(print: Print): void;
     print_message(message: PrintMessage): void;
+    analysis(news: News): void;
 }
 
 /** How long a closed line stays closed until it is opened anew, ms. */
@@ -32,6 +34,7 @@ export function listen(listener: Listener): void {
     stream.addEventListener("print_message", (event) =>
         listener.print_message(JSON.parse(event.data) as PrintMessage),
     );
+    stream.addEventListener("analysis", (event) => listener.analysis(JSON.parse(event.data) as News));
     stream.addEventListener("error", () => {
         away.value = true;
         if (stream.readyState !== EventSource.CLOSED) return;

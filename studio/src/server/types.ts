@@ -105,6 +105,8 @@ export interface Job {
     /** Height of the bed in the space of the job, mm. */
     z0: number;
     supports: boolean;
+    /** Of the foam, where it is known. */
+    modulus: { predicted_MPa: [number, number] } | null;
     notes: string[];
     display: {
         width: number;

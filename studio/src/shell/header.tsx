@@ -10,6 +10,7 @@ import { dark, toggle_theme } from "./theme";
 const tabs: { word: Tab; label: string }[] = [
     { word: "design", label: "Design" },
     { word: "check", label: "Check" },
+    { word: "stiffness", label: "Stiffness" },
     { word: "make", label: "Make" },
     { word: "print", label: "Print" },
 ];

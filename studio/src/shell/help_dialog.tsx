@@ -6,7 +6,7 @@ const keys: [string, string][] = [
     ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
     ["Ctrl+S", "save the recipe"],
     ["/", "search the keys of the form"],
-    ["Alt+1 to Alt+4", "Design, Check, Make, Print"],
+    ["Alt+1 to Alt+5", "Design, Check, Stiffness, Make, Print"],
     [", and .", "one layer down, up"],
     ["arrows on the layer slider", "one layer; Page up and down: many"],
     ["wheel on the layer slider", "a hundredth of all layers; with Shift one"],

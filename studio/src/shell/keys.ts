@@ -7,8 +7,9 @@ import { job, layer, left_mode, type Tab, tab } from "../state/store";
 const tab_keys: Record<string, Tab> = {
     Digit1: "design",
     Digit2: "check",
-    Digit3: "make",
-    Digit4: "print",
+    Digit3: "stiffness",
+    Digit4: "make",
+    Digit5: "print",
 };
 
 /** Whether a key belongs to what is being typed. */

@@ -4,6 +4,9 @@ import { lines, picture } from "../layers/picture";
 import { messages, print } from "../print/print";
 import { away } from "../server/events";
 import { building, job, layer, mistakes, tab, text } from "../state/store";
+import { homogenizing, searching } from "../stiffness/analyses";
+import { shown_design } from "../view/design";
+import { shown_scale } from "../view/paint";
 import { shown_voxels, stage } from "../view/shown";
 
 export interface Probe {
@@ -36,6 +39,10 @@ export const probe: Probe = {
             tab: tab.value,
             print: print.value,
             print_messages: messages.value.map((one) => one.text),
+            homogenized: homogenizing.value?.analysis ?? null,
+            searched: searching.value?.analysis ?? null,
+            design: shown_design.value,
+            paint: shown_scale.value,
         };
     },
 };

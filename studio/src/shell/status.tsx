@@ -8,6 +8,7 @@ import {
     job,
     left_mode,
     mistakes,
+    needs_search,
     starting,
     tab,
     wanted_line,
@@ -73,6 +74,8 @@ export function StatusLine() {
                     <button class="link wrong" onClick={show_first}>
                         {wrong === 1 ? "1 mistake" : `${wrong} mistakes`}
                     </button>
+                ) : needs_search.value ? (
+                    "not optimised yet"
                 ) : job.value ? (
                     "up to date"
                 ) : (

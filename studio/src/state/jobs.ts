@@ -6,7 +6,8 @@ import type { Job } from "../server/types";
 import { layer_at, slab_of } from "./heights";
 import { notice, report } from "./notices";
 import { edits_wait, forget_pending } from "./recipe";
-import { build_progress, building, job, layer, mistakes, opened, text, values } from "./store";
+import { build_progress, building, job, layer, mistakes, needs_search, opened, text, values } from "./store";
+import { shown_design } from "../view/design";
 
 /** Changes within this time of a job's begin make the next one, ms: the first change waits for nothing. */
 const gather = 60;
@@ -38,6 +39,7 @@ function start(): void {
         batch(() => {
             job.value = null;
             mistakes.value = [];
+            needs_search.value = false;
             values.value = { values: {}, lists: {}, given: [] };
             building.value = false;
         });
@@ -69,12 +71,21 @@ async function take_job(recipe: string, mine: AbortController): Promise<void> {
         batch(() => {
             keep_height(made);
             mistakes.value = [];
+            needs_search.value = false;
+            shown_design.value = null;
             if (notice.value?.kind === "error") notice.value = null;
         });
     } catch (error) {
         if (mine.signal.aborted) return;
         if (error instanceof Failure && error.status === 422) {
             mistakes.value = error.mistakes.length ? error.mistakes : [{ line: null, text: error.message }];
+        } else if (error instanceof Failure && error.status === 428) {
+            batch(() => {
+                job.value = null; // that of another recipe must not be made
+                mistakes.value = [];
+                needs_search.value = true;
+                if (shown_design.value?.of !== recipe) shown_design.value = null;
+            });
         } else {
             report(error);
         }

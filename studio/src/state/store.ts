@@ -26,7 +26,10 @@ export const opened = signal(true);
 
 export const report_of_check = signal<{ job: string; report: Report } | null>(null);
 
-export type Tab = "design" | "check" | "make" | "print";
+/** Whether the recipe has a search whose result is not known yet. */
+export const needs_search = signal(false);
+
+export type Tab = "design" | "check" | "stiffness" | "make" | "print";
 export const tab = signal<Tab>("design");
 /** Whether the start page is shown instead of the recipe. */
 export const starting = signal(false);

@@ -5,6 +5,7 @@ import { get_frame } from "../server/api";
 import { Latest } from "../server/latest";
 import { job } from "../state/store";
 import { cut_axis, cut_share } from "./cut";
+import { painted } from "./paint";
 import { stage } from "./shown";
 
 const width = 640;
@@ -18,6 +19,7 @@ export function Fallback() {
             const on = stage.value;
             const axis = cut_axis.value;
             const share = cut_share.value;
+            const paint = painted.value ? "modulus" : "none";
             if (!made || !on) return;
             const rest = { cut: "xyz".includes(axis) ? axis : "-", cut_at: share };
             latest.run(async (signal) => {
@@ -27,6 +29,7 @@ export function Fallback() {
                     azimuth: Math.round(azimuth),
                     elevation: Math.round(elevation),
                     ...rest,
+                    paint,
                 };
                 const url = URL.createObjectURL(await get_frame(made, view, signal));
                 if (picture.value) URL.revokeObjectURL(picture.value);

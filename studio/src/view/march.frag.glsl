@@ -19,6 +19,9 @@ uniform bool fine;         // false while the view moves: fewer samples
 uniform float layer_z, layer_half;  // the layer that is marked
 uniform vec3 part_colour, support_colour, cut_colour, support_cut_colour, layer_colour, grid_colour;
 uniform float grid_pitch;
+uniform sampler3D paint;   // codes: 0 plain, 1 softer and 2 stiffer than asked, 3 to 255 along the scale
+uniform bool is_painted;
+uniform vec3 paint_lo, paint_hi;
 uniform int faults;        // boxes that are painted
 uniform vec3 fault_lo[64], fault_hi[64], fault_colour;
 
@@ -73,6 +76,23 @@ vec4 plate(vec3 origin, vec3 ray) {  // lines on the bed, which fade with the di
     float line = 1.0 - smoothstep(0.5 * wide, 1.5 * wide, min(off.x, off.y));
     float alpha = line * fade * 0.55;
     return vec4(grid_colour * alpha, alpha);
+}
+
+vec3 on_scale(float share) {  // dark blue to yellow, of even steps of lightness
+    vec3 scale[5] = vec3[5](vec3(0.267, 0.004, 0.329), vec3(0.231, 0.322, 0.545), vec3(0.129, 0.569, 0.549),
+                            vec3(0.365, 0.784, 0.388), vec3(0.992, 0.906, 0.145));
+    float place = 4.0 * clamp(share, 0.0, 1.0);
+    int i = min(int(place), 3);
+    return mix(scale[i], scale[i + 1], place - float(i));
+}
+
+vec3 painted(vec3 p, vec3 plain) {
+    if (!is_painted) return plain;
+    float code = floor(255.0 * texture(paint, (p - paint_lo) / (paint_hi - paint_lo)).r + 0.5);
+    if (code < 0.5) return plain;
+    if (code < 1.5) return vec3(0.93, 0.19, 0.19);
+    if (code < 2.5) return vec3(0.95);
+    return on_scale((code - 3.0) / 252.0);
 }
 
 bool is_faulty(vec3 p) {
@@ -131,13 +151,13 @@ void main() {
     bool on_cut = false;
     if (cut_axis >= 0 && at_entry) on_cut = abs(p[cut_axis] - cut_at) < 2.0 * tiny + 1e-4 * voxel;
     if (on_cut) {
-        colour = vec4(is_support ? support_cut_colour : cut_colour, 1.0);
+        colour = vec4(is_support ? support_cut_colour : painted(p, cut_colour), 1.0);
     } else {
         vec3 normal = gradient(p);
         float size = length(normal);
         normal = size < 0.02 ? -ray : normal / size;
         if (dot(normal, ray) > 0.0) normal = normalize(normal - ray * dot(normal, ray));
-        colour = vec4(shade(is_support ? support_colour : part_colour, normal, ray, p), 1.0);
+        colour = vec4(shade(is_support ? support_colour : painted(p, part_colour), normal, ray, p), 1.0);
     }
     if (is_faulty(p)) colour.rgb = mix(colour.rgb, fault_colour, 0.75);
     float band = max(layer_half, 0.35 * voxel);

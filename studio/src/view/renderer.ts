@@ -4,6 +4,7 @@ import { Matrix4 } from "three";
 import type { Triple } from "../server/types";
 import { type Cut, clipped } from "./cut";
 import fragment from "./march.frag.glsl";
+import type { Paint } from "./paint";
 import vertex from "./triangle.vert.glsl";
 import type { Volume } from "./volume";
 
@@ -39,6 +40,7 @@ export class Renderer {
     private readonly matrix = new Matrix4();
     private volume: Volume | null = null;
     private textures: WebGLTexture[] = [];
+    private paint: { paint: Paint; texture: WebGLTexture } | null = null;
     private still: {
         width: number;
         height: number;
@@ -109,6 +111,16 @@ export class Renderer {
                 gl.NEAREST,
             ),
         ];
+    }
+
+    /** Colours of the part; null: none. */
+    set_paint(paint: Paint | null): void {
+        const gl = this.gl;
+        if (this.paint) gl.deleteTexture(this.paint.texture);
+        this.paint = paint && {
+            paint,
+            texture: this.texture(2, paint.size, gl.R8, gl.RED, paint.data, gl.NEAREST),
+        };
     }
 
     private texture(
@@ -213,6 +225,10 @@ export class Renderer {
         gl.uniform3f(this.place("eye"), camera.position.x, camera.position.y, camera.position.z);
         gl.uniform1i(this.place("volume"), 0);
         gl.uniform1i(this.place("blocks"), 1);
+        gl.uniform1i(this.place("paint"), 2);
+        gl.uniform1i(this.place("is_painted"), this.paint ? 1 : 0);
+        this.triple("paint_lo", this.paint?.paint.lo ?? volume.lo);
+        this.triple("paint_hi", this.paint?.paint.hi ?? volume.hi);
         this.set_space(volume, scene);
         const { colours } = scene;
         this.triple("part_colour", colours.part);

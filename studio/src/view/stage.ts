@@ -3,6 +3,7 @@ import { Vector3 } from "three";
 import type { Triple } from "../server/types";
 import { Orbit } from "./camera";
 import { Pace } from "./pace";
+import type { Paint } from "./paint";
 import { pick } from "./pick";
 import { Renderer, type Scene } from "./renderer";
 import type { Volume } from "./volume";
@@ -21,6 +22,7 @@ export class Stage {
     after_frame: () => void = () => {};
     private renderer: Renderer | null;
     private volume: Volume | null = null;
+    private paint: Paint | null = null;
     private scene: Scene | null = null;
     private asked = 0;
     private settle_timer = 0;
@@ -43,6 +45,7 @@ export class Stage {
         canvas.addEventListener("webglcontextrestored", () => {
             this.renderer = Renderer.make(canvas);
             if (this.volume) this.renderer?.set_volume(this.volume);
+            this.renderer?.set_paint(this.paint);
             this.invalidate();
         });
         this.resize();
@@ -67,6 +70,13 @@ export class Stage {
         this.volume = volume;
         this.renderer?.set_volume(volume);
         this.orbit.look_at(volume.lo, volume.hi);
+        this.invalidate();
+    }
+
+    set_paint(paint: Paint | null): void {
+        if (paint === this.paint) return;
+        this.paint = paint;
+        this.renderer?.set_paint(paint);
         this.invalidate();
     }
 

@@ -2,6 +2,7 @@
 import { effect, untracked, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { faults } from "../check/faults";
+import { get_design } from "../server/analysis";
 import { get_volume } from "../server/api";
 import { after_layer } from "../layers/layer_first";
 import { HandleCard } from "../place/card";
@@ -11,17 +12,21 @@ import { ViewMarks } from "../place/view_marks";
 import { Latest } from "../server/latest";
 import type { Job } from "../server/types";
 import { layer_at, plane_of, slab_of } from "../state/heights";
-import { building, job, layer, mistakes } from "../state/store";
+import { building, job, layer, mistakes, needs_search } from "../state/store";
 import { dark } from "../shell/theme";
 import { read_colours } from "./colours";
 import { cut } from "./cut";
 import { CutBar } from "./cut_bar";
+import { DesignChip, SearchCard } from "./design_chip";
+import { shown_design } from "./design";
 import { FaultMarkers } from "./fault_markers";
 import { Fallback } from "./fallback";
+import { PaintBar } from "./paint_bar";
 import { Stage } from "./stage";
 import { shown_voxels, stage } from "./shown";
 import { Triad } from "./triad";
 import { read_volume } from "./volume";
+import { watch_paint } from "./watch_paint";
 
 /** Voxels along the longest side: first, and when nothing has changed for a while. */
 const coarse = 64;
@@ -35,14 +40,24 @@ function watch_volume(on: Stage): () => void {
     const load = (made: Job, voxels: number) =>
         latest.run(async (signal) => {
             const volume = read_volume(await get_volume(made, voxels, signal));
-            if (job.value?.job !== made.job && voxels === fine) return;
+            if (shown_design.value || (job.value?.job !== made.job && voxels === fine)) return;
             on.set_volume(volume);
+            shown_voxels.value = on.voxels;
+        });
+    const load_design = (id: number) =>
+        latest.run(async (signal) => {
+            on.set_volume(read_volume(await get_design(id, signal)));
             shown_voxels.value = on.voxels;
         });
     const stop = effect(() => {
         const made = job.value;
+        const design = shown_design.value;
         clearTimeout(timer);
         call_off();
+        if (design) {
+            load_design(design.id);
+            return;
+        }
         if (!made) return;
         call_off = untracked(() =>
             after_layer(made, () => {
@@ -63,15 +78,18 @@ function watch_scene(on: Stage): () => void {
     return effect(() => {
         const made = job.value;
         void dark.value; // colours follow the theme
-        if (!made) return;
         const k = layer.value;
-        on.set_scene({
-            cut: cut.value,
-            layer_z: plane_of(made, k),
-            layer_height: slab_of(made, k).height,
-            colours: read_colours(),
-            faults: faults.value.map(({ place }) => place.box_mm ?? { lo: place.at_mm, hi: place.at_mm }),
-        });
+        if (shown_design.value) {
+            on.set_scene({ cut: cut.value, layer_z: -1e9, layer_height: 0, colours: read_colours(), faults: [] });
+        } else if (made) {
+            on.set_scene({
+                cut: cut.value,
+                layer_z: plane_of(made, k),
+                layer_height: slab_of(made, k).height,
+                colours: read_colours(),
+                faults: faults.value.map(({ place }) => place.box_mm ?? { lo: place.at_mm, hi: place.at_mm }),
+            });
+        }
     });
 }
 
@@ -108,7 +126,7 @@ function watch_clicks(on: Stage, frame: HTMLElement): () => void {
     };
     const release = (event: PointerEvent) => {
         const made = job.value;
-        if (!down || !made || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+        if (!down || !made || shown_design.value || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
         const box = frame.getBoundingClientRect();
         const place = on.place_at(event.clientX - box.left, event.clientY - box.top);
         if (place && placing.value) put_thing(placing.value, place);
@@ -159,7 +177,13 @@ export function View() {
         stage.value = on;
         webgl.value = on.has_webgl;
         const stops = on.has_webgl
-            ? [watch_volume(on), watch_scene(on), watch_clicks(on, frame.current!), watch_menu(on, frame.current!)]
+            ? [
+                  watch_volume(on),
+                  watch_scene(on),
+                  watch_paint(on),
+                  watch_clicks(on, frame.current!),
+                  watch_menu(on, frame.current!),
+              ]
             : [];
         return () => {
             for (const stop of stops) stop();
@@ -187,6 +211,9 @@ export function View() {
             {!building.value && mistakes.value.length > 0 && job.value && (
                 <div class="view-chip">the recipe before its {mistakes.value.length > 1 ? "mistakes" : "mistake"}</div>
             )}
+            <DesignChip />
+            {needs_search.value && !shown_design.value && <SearchCard />}
+            <PaintBar />
             <HandleCard />
             <CutBar />
             <PlaceMenu />

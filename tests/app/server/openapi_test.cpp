@@ -38,10 +38,14 @@ TEST_CASE("replies have the form that the description gives them", "[server]") {
         "[part]\nshape = \"sphere\"\nradius = 3\n[layers]\nheight = 0.2\n[printer]\nprofile = \"marlin\"\n";
     const std::string job = server.build(recipe);
     const int output = server.json("POST", "/api/jobs/" + job + "/outputs", {}, 202)["output"];
+    const std::string foam = server.build(recipe + "[foam]\ncell = 4\nbeam = 0.6\n");
+    const int analysis =
+        server.json("POST", "/api/jobs/" + foam + "/homogenize", {{"rve", 32}}, 202)["analysis"];
     const auto filled = [&](std::string path) {
         for (const auto& [part, value] : {std::pair<std::string, std::string>{"{job}", job},
                                           {"{layer}", "5"},
-                                          {"{output}", std::to_string(output)}}) {
+                                          {"{output}", std::to_string(output)},
+                                          {"{analysis}", std::to_string(analysis)}}) {
             if (const std::size_t at = path.find(part); at != std::string::npos)
                 path.replace(at, part.size(), value);
         }
@@ -75,6 +79,12 @@ TEST_CASE("replies have the form that the description gives them", "[server]") {
     check("get", "/api/outputs/{output}", nullptr);
     check("post", "/api/jobs/{job}/print", Json::object());
     check("post", "/api/jobs/{job}/print", {{"to", {{"serial", "/dev/none"}}}});
+    check("post", "/api/jobs/{job}/homogenize", {{"rve", 32}});
+    check("post", "/api/optimize", {{"text", recipe}});
+    check("post", "/api/optimize", {{"text", "[part]\n"}});
+    check("post", "/api/analyses/{analysis}/stop", nullptr);
+    check("delete", "/api/analyses/{analysis}", nullptr);
+    check("get", "/api/analyses/{analysis}", nullptr);
     check("delete", "/api/jobs/{job}", nullptr);
     check("get", "/api/jobs/{job}/layers/{layer}/contours", nullptr);
     for (const char* order : {"pause", "resume", "stop", "halt"})
