@@ -23,7 +23,9 @@ let timer = 0;
 export function refresh(): void {
     if (timer) return;
     const rest = controller ? patience : gather;
-    timer = window.setTimeout(start, Math.max(0, begun + rest - Date.now()));
+    const left = begun + rest - Date.now();
+    if (left > 0) timer = window.setTimeout(start, left);
+    else start();
 }
 
 function start(): void {
