@@ -57,7 +57,7 @@ void answer(httplib::Response& response, int status, const std::string& message,
     nlohmann::ordered_json json{{"message", message}};
     if (details.is_object()) json.update(details);
     response.status = status;
-    response.set_content(HttpReply(json).body, "application/json");
+    response.set_content(HttpReply(json).body, json_type.c_str());
 }
 
 }  // namespace

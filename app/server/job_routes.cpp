@@ -80,6 +80,10 @@ void add_job_routes(ServerState& state) {
         state.jobs.forget(request.parts.at("job"));
         return Json::object();
     });
+    http.route("DELETE", "/api/sessions/{session}", [&state](const HttpRequest& request) -> HttpReply {
+        state.jobs.end_session(request.parts.at("session"));
+        return Json::object();
+    });
     http.route("GET", "/api/jobs/{job}/check",
                [&state](const HttpRequest& request) { return check(state, request); });
     http.route("GET", "/api/events", [&state](const HttpRequest& request) { return events(state, request); });

@@ -45,6 +45,15 @@ void JobStore::end_work(const std::string& session, std::int64_t sequence) {
     found->second.work = std::make_shared<CancelToken>();
 }
 
+void JobStore::end_session(const std::string& session) {
+    const std::lock_guard lock(mutex_);
+    const auto found = builds_.find(session);
+    if (found == builds_.end()) return;
+    found->second.cancel->cancel();
+    found->second.work->cancel();
+    builds_.erase(found);
+}
+
 std::shared_ptr<CancelToken> JobStore::work_of(const std::string& session) {
     const std::lock_guard lock(mutex_);
     const auto found = builds_.find(session);

@@ -24,6 +24,8 @@ class JobStore {
     /// search that it may not do, and Interrupted when a build with a higher number came.
     std::shared_ptr<const ServedJob> build(const std::string& text, const std::string& session,
                                            std::int64_t sequence, bool searches = true);
+    /// Ends the build of a session, and what is computed for those who look at its job.
+    void end_session(const std::string& session);
     /// Returns what tells slow work for a session that a newer recipe of the session has come; null for a
     /// session that has built nothing.
     std::shared_ptr<CancelToken> work_of(const std::string& session);

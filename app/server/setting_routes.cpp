@@ -115,7 +115,7 @@ void add_setting_routes(ServerState& state) {
                     {"threads", thread_count(state.options.threads)}};
     });
     http.route("GET", "/api/openapi.json", [](const HttpRequest&) {
-        return HttpReply("application/json", std::string(interface_files().front().text));
+        return HttpReply(json_type, std::string(interface_files().front().text));
     });
     http.route("GET", "/api/settings", [](const HttpRequest&) -> HttpReply {
         return Json{{"sections", sections_json()}, {"settings", settings_json()}, {"kinds", kinds_json()}};

@@ -293,6 +293,7 @@ export function make_mock({
             reply = printer.reply(request.method, url.pathname.split("/")[3] ?? "");
         else if (url.pathname.startsWith("/api/outputs/"))
             reply = output_reply(url, request.method, response);
+        else if (url.pathname.startsWith("/api/sessions/")) reply = {};
         else if (url.pathname.startsWith("/api/analyses/"))
             reply = analyses.reply(url, request.method, response);
         else {

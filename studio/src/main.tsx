@@ -7,7 +7,7 @@ import { App } from "./app";
 import { check_progress } from "./check/check_panel";
 import { ask_again, take_output } from "./make/outputs";
 import { ask_for_print, take_message, take_print } from "./print/print";
-import { get_examples, get_machines, get_recipe, get_table, get_version } from "./server/api";
+import { end_session, get_examples, get_machines, get_recipe, get_table, get_version } from "./server/api";
 import { away, listen } from "./server/events";
 import { Failure } from "./server/http";
 import type { Progress } from "./server/types";
@@ -79,6 +79,7 @@ listen_to_drops();
 addEventListener("beforeunload", (event) => {
     if (unsaved.value && text.value.trim()) event.preventDefault();
 });
+addEventListener("pagehide", () => end_session());
 const listener = {
     back: () => {
         if (!ready.value) {

@@ -1,5 +1,5 @@
 // One function a request of the server's interface.
-import { get_blob, get_bytes, get_json } from "./http";
+import { get_blob, get_bytes, get_json, with_token } from "./http";
 import { session } from "./token";
 import type {
     Change,
@@ -47,6 +47,11 @@ export const send_file = (file: File) =>
 
 export const post_job = (text: string, sequence: number, signal: Signal) =>
     get_json<Job>("/api/jobs", { method: "POST", json: { text, session, sequence, searches: false }, signal });
+
+/** The page goes: nobody waits for what the server computes for it. */
+export function end_session(): void {
+    void fetch(with_token(`/api/sessions/${session}`), { method: "DELETE", keepalive: true });
+}
 
 const of_job = (job: Job, rest: string) => `/api/jobs/${job.job}/${rest}`;
 

@@ -340,6 +340,21 @@ TEST_CASE("a newer recipe of a session ends what is computed for the one before"
     // Other sessions are not concerned, and the next request is.
     CHECK(server.send("GET", "/api/jobs/" + job + "/volume?n=8&session=test")->status == 200);
     CHECK(server.state().jobs.work_of("other") == nullptr);
+
+    // So does the end of the session.
+    const std::string again =
+        server.json("POST", "/api/jobs", {{"text", recipe}, {"session", "test"}, {"sequence", 1002}})
+            .at("job")
+            .get<std::string>();
+    std::thread waiting([&] {
+        status = server.send("GET", "/api/jobs/" + again + "/curve?values=4096&session=test")->status;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    server.json("DELETE", "/api/sessions/test");
+    waiting.join();
+    CHECK(status == 409);
+    CHECK(server.state().jobs.work_of("test") == nullptr);
+    server.json("DELETE", "/api/sessions/nobody");
 }
 
 TEST_CASE("events of a session come to its listeners", "[server]") {
