@@ -1,5 +1,5 @@
 // Draws what the layer pane shows: mask, contours or paths, the grid of pixels and the place of a fault.
-import type { Contours, Job, Paths } from "../server/types";
+import type { Contours, Job, Path, Paths } from "../server/types";
 import { pixel_corner, pixel_of, type Picture } from "./mask";
 import { part_contour, role_colour, support_contour } from "./roles";
 import type { Frame } from "./window";
@@ -20,6 +20,14 @@ export interface Drawing {
     mark: [number, number] | null;
 }
 
+/** Length of the shortest step of a line on the screen, px. */
+const least_step = 0.7;
+/** Lines that are wider on the screen have round ends, px. */
+const round_from = 2;
+/** Numbers of points of one stroke: the time that a stroke takes grows faster than its length. */
+const most_points = 2000;
+/** Beads whose widths differ by less are drawn together, mm: each width is a stroke of its own. */
+const width_step = 0.02;
 /** From this size of a pixel on the screen on, lines part the pixels. */
 const grid_from = 9;
 
@@ -93,11 +101,18 @@ function trace(
     across: Place,
     down: Place,
 ): void {
+    let lx = Infinity,
+        ly = Infinity;
     for (let i = 0; i + 1 < points.length; i += 2) {
         const px = across(points[i]!),
             py = down(points[i + 1]!);
+        // Points that the screen cannot tell apart cost as much as others.
+        const is_last = i + 3 >= points.length;
+        if (!is_last && Math.abs(px - lx) + Math.abs(py - ly) < least_step) continue;
         if (i) context.lineTo(px, py);
         else context.moveTo(px, py);
+        lx = px;
+        ly = py;
     }
     if (closed) context.closePath();
 }
@@ -132,19 +147,30 @@ function draw_paths(
     across: Place,
     down: Place,
 ): void {
-    const roles = [...new Set(paths.map((one) => one.role))];
-    for (const role of roles.reverse()) {
-        const widths = new Set(paths.filter((one) => one.role === role).map((one) => one.width));
-        for (const width of widths) {
-            context.beginPath();
-            for (const one of paths) {
-                if (one.role === role && one.width === width)
-                    trace(context, one.points, one.closed, across, down);
-            }
-            context.strokeStyle = role_colour(role);
-            context.lineWidth = Math.max(0.8, width * scale * 0.88);
+    const groups = new Map<string, { role: string; width: number; paths: Path[] }>();
+    for (const one of paths) {
+        const width = Math.max(1, Math.round(one.width / width_step)) * width_step;
+        const name = `${one.role} ${width}`;
+        const group = groups.get(name);
+        if (group) group.paths.push(one);
+        else groups.set(name, { role: one.role, width, paths: [one] });
+    }
+    for (const group of [...groups.values()].reverse()) {
+        context.strokeStyle = role_colour(group.role);
+        context.lineWidth = Math.max(0.8, group.width * scale * 0.88);
+        context.lineJoin = context.lineWidth >= round_from ? "round" : "bevel";
+        context.lineCap = context.lineWidth >= round_from ? "round" : "butt";
+        let points = 0;
+        context.beginPath();
+        for (const one of group.paths) {
+            trace(context, one.points, one.closed, across, down);
+            points += one.points.length;
+            if (points < most_points) continue;
             context.stroke();
+            context.beginPath();
+            points = 0;
         }
+        context.stroke();
     }
 }
 
