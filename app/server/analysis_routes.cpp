@@ -1,7 +1,7 @@
 // Analyses: homogenisations and searches that are computed in the background.
 #include <charconv>
 
-#include "app/server/analysis_work.h"
+#include "app/jobs/analysis_work.h"
 #include "app/server/server_state.h"
 
 namespace lamella {

@@ -3,9 +3,9 @@
 #include <charconv>
 #include <map>
 
+#include "app/jobs/layer_content.h"
+#include "app/jobs/part_modulus.h"
 #include "app/reports/modulus_paint.h"
-#include "app/server/layer_content.h"
-#include "app/server/part_modulus.h"
 #include "app/server/server_state.h"
 #include "printers/common/thumbnail.h"
 #include "recipe/output/preview_render.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 #include "printers/serial/serial_output.h"
 #include "printers/serial/serial_port.h"
 

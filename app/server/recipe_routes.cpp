@@ -1,7 +1,7 @@
 // The recipe of the page: its file, changes of keys, values for a form, and files beside it.
 #include <map>
 
-#include "app/server/recipe_mistakes.h"
+#include "app/jobs/recipe_mistakes.h"
 #include "app/server/server_state.h"
 #include "engine/base/complete_file.h"
 #include "engine/base/whole_file.h"

@@ -10,10 +10,10 @@
 #include <string>
 #include <thread>
 
-#include "app/server/event_hub.h"
+#include "app/http/event_hub.h"
+#include "app/jobs/served_job.h"
 #include "app/server/print_messages.h"
 #include "app/server/print_request.h"
-#include "app/server/served_job.h"
 #include "engine/base/cancel_token.h"
 
 namespace lamella {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 #include "engine/base/json_depth.h"
 #include "printers/archive/output_file.h"
 #include "printers/registry.h"

@@ -7,9 +7,9 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "app/server/event_hub.h"
-#include "app/server/served_folder.h"
-#include "app/server/served_job.h"
+#include "app/http/event_hub.h"
+#include "app/jobs/served_folder.h"
+#include "app/jobs/served_job.h"
 #include "app/server/served_print.h"
 
 namespace lamella {

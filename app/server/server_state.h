@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
-#include "app/server/analysis_store.h"
-#include "app/server/http_server.h"
-#include "app/server/job_store.h"
-#include "app/server/output_store.h"
+#include "app/http/http_server.h"
+#include "app/jobs/analysis_store.h"
+#include "app/jobs/job_store.h"
+#include "app/jobs/output_store.h"
 #include "app/server/served_printer.h"
 
 namespace lamella {

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <optional>
 
+#include "app/jobs/design_volume.h"
 #include "app/reports/modulus_paint.h"
-#include "app/server/design_volume.h"
 #include "tests/app/commands/command_run.h"
 #include "tests/app/commands/mentions.h"
 #include "tests/app/server/running_server.h"

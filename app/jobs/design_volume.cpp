@@ -1,5 +1,5 @@
 // Samples the elements of a design in cubes, with a margin of one around them.
-#include "app/server/design_volume.h"
+#include "app/jobs/design_volume.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/server/voxel_grid.h"
+#include "app/jobs/voxel_grid.h"
 
 namespace lamella {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "app/server/event_hub.h"
-#include "app/server/served_job.h"
+#include "app/http/event_hub.h"
+#include "app/jobs/served_job.h"
 
 namespace lamella {
 

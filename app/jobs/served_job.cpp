@@ -1,12 +1,12 @@
 // Builds a job as `lamella slice` does, without a terminal.
-#include "app/server/served_job.h"
+#include "app/jobs/served_job.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <glm/gtc/matrix_access.hpp>
 
-#include "app/server/recipe_mistakes.h"
+#include "app/jobs/recipe_mistakes.h"
 #include "printers/common/layer_heights.h"
 #include "printers/process_limits.h"
 #include "printers/registry.h"

@@ -1,9 +1,9 @@
 // Queues of text, one a listener.
-#include "app/server/event_hub.h"
+#include "app/http/event_hub.h"
 
 #include <chrono>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 
 namespace lamella {
 

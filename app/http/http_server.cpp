@@ -1,5 +1,5 @@
 // Matches routes, checks access, and turns exceptions into replies.
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 
 #include <fmt/format.h>
 #include <httplib.h>

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <string>
 
-#include "app/server/event_hub.h"
-#include "app/server/served_job.h"
+#include "app/http/event_hub.h"
+#include "app/jobs/served_job.h"
 
 namespace lamella {
 

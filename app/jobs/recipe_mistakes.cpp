@@ -1,5 +1,5 @@
 // Takes the places out of messages: "PATH:7:3: text" or "PATH:7: text".
-#include "app/server/recipe_mistakes.h"
+#include "app/jobs/recipe_mistakes.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // Divides a box into cubes.
-#include "app/server/voxel_grid.h"
+#include "app/jobs/voxel_grid.h"
 
 #include <algorithm>
 #include <cmath>

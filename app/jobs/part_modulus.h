@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "app/server/served_job.h"
+#include "app/jobs/served_job.h"
 
 namespace lamella {
 

@@ -1,11 +1,11 @@
 // A record behind a mutex; news is told outside it.
-#include "app/server/analysis.h"
+#include "app/jobs/analysis.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 
 namespace lamella {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "app/server/served_folder.h"
+#include "app/jobs/served_folder.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/build_supports.h"
 #include "recipe/inputs/input_cache.h"

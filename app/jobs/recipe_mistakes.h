@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 
 namespace lamella {
 

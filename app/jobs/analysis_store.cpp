@@ -1,11 +1,11 @@
 // One thread computes what waits, the lowest number first.
-#include "app/server/analysis_store.h"
+#include "app/jobs/analysis_store.h"
 
 #include <algorithm>
 #include <new>
 #include <utility>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 
 namespace lamella {
 

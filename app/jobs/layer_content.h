@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/server/served_job.h"
-#include "app/server/voxel_grid.h"
+#include "app/jobs/served_job.h"
+#include "app/jobs/voxel_grid.h"
 
 namespace lamella {
 

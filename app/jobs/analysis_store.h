@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "app/server/analysis.h"
-#include "app/server/event_hub.h"
+#include "app/http/event_hub.h"
+#include "app/jobs/analysis.h"
 
 namespace lamella {
 

@@ -1,13 +1,13 @@
 // Does what the commands do, and tells an analysis how far it is.
-#include "app/server/analysis_work.h"
+#include "app/jobs/analysis_work.h"
 
 #include <utility>
 
+#include "app/jobs/design_volume.h"
+#include "app/jobs/recipe_mistakes.h"
 #include "app/ranks/distribute_solves.h"
 #include "app/reports/stiffness_report.h"
 #include "app/reports/structure_text.h"
-#include "app/server/design_volume.h"
-#include "app/server/recipe_mistakes.h"
 #include "recipe/build/build_job.h"
 #include "recipe/build/support_plan.h"
 

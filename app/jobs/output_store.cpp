@@ -1,12 +1,12 @@
 // One thread slices what waits, the lowest number first.
-#include "app/server/output_store.h"
+#include "app/jobs/output_store.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 #include "engine/layers/layer_stream.h"
 #include "printers/registry.h"
 #include "recipe/printer_choice.h"

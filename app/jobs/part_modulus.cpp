@@ -1,15 +1,15 @@
 // Samples the modulus in and beside the voxels that the part covers: elsewhere nobody sees it.
-#include "app/server/part_modulus.h"
+#include "app/jobs/part_modulus.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/http/http_server.h"
+#include "app/jobs/layer_content.h"
+#include "app/jobs/voxel_grid.h"
 #include "app/reports/grey_page.h"
 #include "app/reports/modulus_paint.h"
-#include "app/server/http_server.h"
-#include "app/server/layer_content.h"
-#include "app/server/voxel_grid.h"
 #include "engine/base/parallel.h"
 #include "engine/field/slice_context.h"
 

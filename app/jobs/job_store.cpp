@@ -1,9 +1,9 @@
 // Keeps the jobs used last, and one build a session.
-#include "app/server/job_store.h"
+#include "app/jobs/job_store.h"
 
 #include <algorithm>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 #include "recipe/build/support_plan.h"
 #include "recipe/structure/optimize_part.h"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "app/server/analysis.h"
-#include "app/server/served_job.h"
+#include "app/jobs/analysis.h"
+#include "app/jobs/served_job.h"
 #include "recipe/structure/foam_stiffness.h"
 
 namespace lamella {

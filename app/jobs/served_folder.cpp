@@ -1,12 +1,12 @@
 // Resolves names within one folder.
-#include "app/server/served_folder.h"
+#include "app/jobs/served_folder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "app/server/http_server.h"
+#include "app/http/http_server.h"
 #include "engine/base/complete_file.h"
 #include "engine/base/whole_file.h"
 #include "recipe/machine_profiles.h"

@@ -1,5 +1,5 @@
 // Cuts layers as they are asked for; nothing is kept.
-#include "app/server/layer_content.h"
+#include "app/jobs/layer_content.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cstring>
 #include <vector>
 
+#include "app/http/http_server.h"
+#include "app/jobs/voxel_grid.h"
 #include "app/reports/grey_page.h"
-#include "app/server/http_server.h"
-#include "app/server/voxel_grid.h"
 #include "engine/base/cancel_token.h"
 #include "engine/base/parallel.h"
 #include "engine/contours/coverage.h"
