@@ -1,6 +1,6 @@
 // The faults that a check has found, as a list of places to go to.
 import { computed, signal } from "@preact/signals";
-import type { Check, Place } from "../server/types";
+import type { Check, Job, Place, Triple } from "../server/types";
 import { clamp_layer } from "../state/heights";
 import { job, layer, report_of_check } from "../state/store";
 
@@ -49,6 +49,19 @@ export const faults = computed(() => {
         .filter((one) => !one.passed)
         .flatMap(faults_of);
 });
+
+/** Of the part's largest side: a box that is larger, such as that of a void, is not painted as a whole. */
+const most_painted = 0.25;
+
+/** The box that is painted for a fault, mm: what encloses most of the part would hide all others. */
+export function painted_box(made: Job, { place }: Fault): { lo: Triple; hi: Triple } {
+    const { lo, hi } = made.bounds;
+    const largest = Math.max(...hi.map((one, k) => one - lo[k]!));
+    const box = place.box_mm;
+    if (box && box.hi.every((one, k) => one - box.lo[k]! <= most_painted * largest)) return box;
+    const around = (by: number) => place.at_mm.map((one) => one + by * largest) as Triple;
+    return { lo: around(-0.02), hi: around(0.02) };
+}
 
 export const shown_fault = signal<Fault | null>(null);
 /** A place for the layer pane to show; a new object at every request. */

@@ -1,12 +1,13 @@
 // Red rings at the places of faults; a click goes there.
 import { useEffect, useRef } from "preact/hooks";
+import { tab } from "../state/store";
 import { type Fault, faults, go_to_fault, shown_fault } from "../check/faults";
 import { add_follower, stage } from "./shown";
 
 export function FaultMarkers() {
     const marks = useRef(new Map<Fault, HTMLButtonElement>());
     const on = stage.value;
-    const list = faults.value;
+    const list = tab.value === "check" ? faults.value : [];
     useEffect(() => {
         if (!on || !list.length) return;
         return add_follower(() => {

@@ -1,7 +1,7 @@
 // The 3D view: the part, its cut, the layer that is looked at and the places of faults.
 import { effect, untracked, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { faults } from "../check/faults";
+import { faults, painted_box } from "../check/faults";
 import { get_design } from "../server/analysis";
 import { get_volume } from "../server/api";
 import { after_layer } from "../layers/layer_first";
@@ -12,7 +12,7 @@ import { ViewMarks } from "../place/view_marks";
 import { Latest } from "../server/latest";
 import type { Job } from "../server/types";
 import { layer_at, plane_of, slab_of } from "../state/heights";
-import { building, job, layer, mistakes, needs_search } from "../state/store";
+import { building, job, layer, mistakes, needs_search, tab } from "../state/store";
 import { dark } from "../shell/theme";
 import { read_colours } from "./colours";
 import { cut } from "./cut";
@@ -87,7 +87,7 @@ function watch_scene(on: Stage): () => void {
                 layer_z: plane_of(made, k),
                 layer_height: slab_of(made, k).height,
                 colours: read_colours(),
-                faults: faults.value.map(({ place }) => place.box_mm ?? { lo: place.at_mm, hi: place.at_mm }),
+                faults: tab.value === "check" ? faults.value.map((one) => painted_box(made, one)) : [],
             });
         }
     });
