@@ -55,7 +55,7 @@ std::string InputCache::hash(const std::string& path) {
         const auto found = hashes_.find(path);
         if (found != hashes_.end() && found->second.state == state) return found->second.hash;
     }
-    const std::string hash = hash_file(path);
+    std::string hash = hash_file(path);
     const std::lock_guard lock(mutex_);
     if (hashes_.size() >= most_hashes) hashes_.clear();
     hashes_.insert_or_assign(path, KeptHash{state, hash});
