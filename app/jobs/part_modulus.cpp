@@ -10,6 +10,7 @@
 #include "app/jobs/voxel_grid.h"
 #include "app/reports/grey_page.h"
 #include "app/reports/modulus_paint.h"
+#include "engine/base/cancel_token.h"
 #include "engine/base/parallel.h"
 #include "engine/field/slice_context.h"
 
@@ -51,7 +52,7 @@ bool is_near(const std::vector<std::uint8_t>& covered, const VoxelGrid& grid, gl
 
 }  // namespace
 
-std::string modulus_volume(const ServedJob& job, int longest, int threads) {
+std::string modulus_volume(const ServedJob& job, int longest, const PassControl& control) {
     const auto code_at = modulus_codes(job.built, "modulus");
     if (job.parts > 1)
         throw HttpError(400, "several parts stand on the plate; accepted: one, for its modulus");
@@ -63,10 +64,11 @@ std::string modulus_volume(const ServedJob& job, int longest, int threads) {
     std::string bytes = headed(head);
     const std::size_t first = bytes.size();
     bytes.resize(first + grid.voxels());
-    ThreadArena arena(threads);
+    ThreadArena arena(control.threads);
     arena.execute([&] {
         const std::vector<std::uint8_t> covered = covered_voxels(job, grid);
         parallel_for(grid.size.z, [&](int z) {
+            stop_if_cancelled(control.cancel);
             for (int y = 0; y < grid.size.y; ++y) {
                 for (int x = 0; x < grid.size.x; ++x) {
                     if (!is_near(covered, grid, {x, y, z})) continue;

@@ -121,9 +121,10 @@ void add_layer_routes(ServerState& state) {
         return HttpReply("application/octet-stream",
                          coverage_volume(*a.job, request.integer("n", 96, 8, 256), work.control));
     });
-    add("modulus", [threads](const Asked& a, const HttpRequest& request) {
+    add("modulus", [&state](const Asked& a, const HttpRequest& request) {
+        const SessionWork work(state, request);
         return HttpReply("application/octet-stream",
-                         modulus_volume(*a.job, request.integer("n", 96, 8, 256), threads));
+                         modulus_volume(*a.job, request.integer("n", 96, 8, 256), work.control));
     });
     add("frame.png",
         [threads](const Asked& a, const HttpRequest& request) { return frame(a, request, threads); });

@@ -98,4 +98,4 @@ export const get_design = (id: number, signal: AbortSignal) =>
     get_bytes(`/api/analyses/${id}/volume`, { signal });
 
 export const get_modulus = (job: Job, voxels: number, signal: AbortSignal) =>
-    get_bytes(`/api/jobs/${job.job}/modulus?n=${voxels}`, { signal });
+    get_bytes(`/api/jobs/${job.job}/modulus?n=${voxels}&session=${session}`, { signal });
