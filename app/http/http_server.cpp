@@ -73,6 +73,21 @@ nlohmann::ordered_json HttpRequest::json() const {
     throw HttpError(400, "the body is no JSON object");
 }
 
+std::string text_member(const nlohmann::ordered_json& json, const char* name) {
+    if (!json.contains(name) || json[name].is_null()) return {};
+    if (!json[name].is_string()) throw HttpError(400, std::string(name) + ": accepted: a text");
+    return json[name].get<std::string>();
+}
+
+int HttpRequest::number_part(const std::string& name) const {
+    const std::string& part = parts.at(name);
+    int number = 0;
+    const auto parsed = std::from_chars(part.data(), part.data() + part.size(), number);
+    if (parsed.ec != std::errc{} || parsed.ptr != part.data() + part.size())
+        throw HttpError(404, "there is no such " + name);
+    return number;
+}
+
 double HttpRequest::number(const std::string& name, double usual, double least, double most) const {
     const auto found = query.find(name);
     if (found == query.end()) return usual;

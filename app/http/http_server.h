@@ -37,6 +37,8 @@ struct HttpRequest {
 
     /// Parses the body, which has to be an object. Throws HttpError 400.
     nlohmann::ordered_json json() const;
+    /// Returns the whole number that a part of the path is. Throws HttpError 404 for anything else.
+    int number_part(const std::string& name) const;
     /// Returns a number of the query, or `usual` without one. Throws HttpError 400 for anything but a number
     /// from `least` to `most`.
     double number(const std::string& name, double usual, double least, double most) const;
@@ -44,6 +46,9 @@ struct HttpRequest {
     /// Returns a text of the query, or `usual` without one.
     std::string text(const std::string& name, const std::string& usual = "") const;
 };
+
+/// Returns a text of a JSON object; empty where it is missing or null. Throws HttpError 400 for another type.
+std::string text_member(const nlohmann::ordered_json& json, const char* name);
 
 /// Writes a piece of a reply; returns false once the client is gone.
 using HttpSink = std::function<bool(const std::string& piece)>;

@@ -1,6 +1,4 @@
 // Analyses: homogenisations and searches that are computed in the background.
-#include <charconv>
-
 #include "app/jobs/analysis_work.h"
 #include "app/server/server_state.h"
 
@@ -9,21 +7,6 @@ namespace lamella {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-int analysis_of(const HttpRequest& request) {
-    const std::string& text = request.parts.at("analysis");
-    int number = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size())
-        throw HttpError(404, "there is no such analysis");
-    return number;
-}
-
-std::string text_in(const Json& json, const char* name) {
-    if (!json.contains(name) || json[name].is_null()) return {};
-    if (!json[name].is_string()) throw HttpError(400, std::string(name) + ": accepted: a text");
-    return json[name].get<std::string>();
-}
 
 int whole_in(const Json& json, const char* name, int usual, int least, int most) {
     if (!json.contains(name) || json[name].is_null()) return usual;
@@ -53,7 +36,7 @@ HttpReply homogenize(ServerState& state, const HttpRequest& request) {
     options.elements = whole_in(json, "rve", 0, 0, most_elements);
     options.samples = whole_in(json, "samples", 1, 1, most_samples);
     options.threads = state.options.threads;
-    return accepted(state, state.analyses.start("homogenize", text_in(json, "session"),
+    return accepted(state, state.analyses.start("homogenize", text_member(json, "session"),
                                                 homogenize_work(std::move(job), options)));
 }
 
@@ -61,8 +44,8 @@ HttpReply optimize(ServerState& state, const HttpRequest& request) {
     const Json json = request.json();
     if (!json.contains("text")) throw HttpError(400, "text: missing");
     return accepted(state,
-                    state.analyses.start("optimize", text_in(json, "session"),
-                                         optimize_work(text_in(json, "text"), state.folder,
+                    state.analyses.start("optimize", text_member(json, "session"),
+                                         optimize_work(text_member(json, "text"), state.folder,
                                                        flag_in(json, "resume"), state.options.threads)));
 }
 
@@ -76,17 +59,17 @@ void add_analysis_routes(ServerState& state) {
                [&state](const HttpRequest& request) { return optimize(state, request); });
     const std::string one = "/api/analyses/{analysis}";
     http.route("GET", one, [&state](const HttpRequest& request) -> HttpReply {
-        return state.analyses.find(analysis_of(request))->describe();
+        return state.analyses.find(request.number_part("analysis"))->describe();
     });
     http.route("DELETE", one, [&state](const HttpRequest& request) -> HttpReply {
-        state.analyses.remove(analysis_of(request));
+        state.analyses.remove(request.number_part("analysis"));
         return Json::object();
     });
     http.route("POST", one + "/stop", [&state](const HttpRequest& request) -> HttpReply {
-        return state.analyses.stop(analysis_of(request))->describe();
+        return state.analyses.stop(request.number_part("analysis"))->describe();
     });
     http.route("GET", one + "/volume", [&state](const HttpRequest& request) -> HttpReply {
-        return {"application/octet-stream", state.analyses.find(analysis_of(request))->design()};
+        return {"application/octet-stream", state.analyses.find(request.number_part("analysis"))->design()};
     });
 }
 

@@ -1,5 +1,4 @@
 // Outputs: files that are sliced in the background.
-#include <charconv>
 #include <fstream>
 
 #include "app/server/server_state.h"
@@ -11,24 +10,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-int number_of(const HttpRequest& request) {
-    const std::string& text = request.parts.at("output");
-    int number = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size())
-        throw HttpError(404, "there is no such output");
-    return number;
-}
-
 HttpReply start(ServerState& state, const HttpRequest& request) {
     const auto job = state.jobs.find(request.parts.at("job"));
     const Json json = request.body.empty() ? Json::object() : request.json();
-    const auto text = [&](const char* name) {
-        if (!json.contains(name) || json[name].is_null()) return std::string();
-        if (!json[name].is_string()) throw HttpError(400, std::string(name) + ": accepted: a text");
-        return json[name].get<std::string>();
-    };
-    const int number = state.outputs.start(job, text("file"), text("session"));
+    const int number = state.outputs.start(job, text_member(json, "file"), text_member(json, "session"));
     return {state.outputs.describe(number), 202};
 }
 
@@ -56,14 +41,14 @@ void add_output_routes(ServerState& state) {
     http.route("POST", "/api/jobs/{job}/outputs",
                [&state](const HttpRequest& request) { return start(state, request); });
     http.route("GET", "/api/outputs/{output}", [&state](const HttpRequest& request) -> HttpReply {
-        return state.outputs.describe(number_of(request));
+        return state.outputs.describe(request.number_part("output"));
     });
     http.route("DELETE", "/api/outputs/{output}", [&state](const HttpRequest& request) -> HttpReply {
-        state.outputs.remove(number_of(request));
+        state.outputs.remove(request.number_part("output"));
         return Json::object();
     });
     http.route("GET", "/api/outputs/{output}/file", [&state](const HttpRequest& request) {
-        return send_file(state.outputs.file(number_of(request)));
+        return send_file(state.outputs.file(request.number_part("output")));
     });
 }
 
