@@ -7,6 +7,7 @@ import { Latest } from "../server/latest";
 import type { Curve, Job } from "../server/types";
 import { layer_at, slab_of } from "../state/heights";
 import { job, layer } from "../state/store";
+import { plain_axis, plot_colour } from "../shell/plot_style";
 import { dark } from "../shell/theme";
 import { after_layer } from "./layer_first";
 
@@ -58,21 +59,14 @@ function draw_marker(plot: uPlot): void {
 }
 
 function options_of(made: Job, width: number, height: number): uPlot.Options {
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name: string) => style.getPropertyValue(name).trim();
-    const axis = {
-        stroke: colour("--ink-soft"),
-        font: "11px system-ui, sans-serif",
-        ticks: { show: false },
-        grid: { stroke: colour("--line-soft"), width: 1 },
-    };
+    const axis = plain_axis();
     const series: uPlot.Series[] = [
         {},
         {
             label: "part",
-            stroke: colour("--accent"),
+            stroke: plot_colour("--accent"),
             width: 1.5,
-            fill: colour("--accent-fill"),
+            fill: plot_colour("--accent-fill"),
             points: { show: false },
         },
     ];

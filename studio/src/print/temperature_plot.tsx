@@ -2,6 +2,7 @@
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
+import { plain_axis, plot_colour } from "../shell/plot_style";
 import { dark } from "../shell/theme";
 import { type Sample, samples } from "./temperatures";
 
@@ -25,17 +26,10 @@ function data_of(all: Sample[]): uPlot.AlignedData {
 }
 
 function options_of(width: number, height: number): uPlot.Options {
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name: string) => style.getPropertyValue(name).trim();
-    const axis = {
-        stroke: colour("--ink-soft"),
-        font: "11px system-ui, sans-serif",
-        ticks: { show: false },
-        grid: { stroke: colour("--line-soft"), width: 1 },
-    };
+    const axis = plain_axis();
     const line = (label: string, name: string): uPlot.Series => ({
         label,
-        stroke: colour(name),
+        stroke: plot_colour(name),
         width: 1.5,
         points: { show: false },
     });
