@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/charts/svg_text.h"
+#include "procedural/volume/density_bricks.h"
 #include "recipe/structure/structure_report.h"
 
 namespace lamella {

@@ -18,6 +18,7 @@
 #include "app/ranks/run_on_ranks.h"
 #include "app/reports/structure_text.h"
 #include "engine/base/error.h"
+#include "procedural/volume/density_bricks.h"
 #include "procedural/volume/write_nrrd.h"
 #include "recipe/structure/analyse_part.h"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/jobs/voxel_grid.h"
+#include "procedural/volume/density_bricks.h"
 
 namespace lamella {
 

@@ -14,6 +14,7 @@
 #include "engine/solids/csg.h"
 #include "procedural/optimization/density_surface.h"
 #include "procedural/volume/brick_file.h"
+#include "procedural/volume/density_bricks.h"
 #include "procedural/volume/volume_grading.h"
 #include "recipe/build/foam_modulus.h"
 #include "recipe/build/kept_plan.h"

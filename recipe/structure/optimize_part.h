@@ -9,17 +9,16 @@
 
 #include "engine/base/cancel_token.h"
 #include "procedural/optimization/element_use.h"
-#include "procedural/volume/density_bricks.h"
 #include "recipe/build/build_regions.h"
 
 namespace lamella {
 
+class DensityBricks;
+class InputCache;
 class SharedSolves;
 struct ElementIteration;
 struct OptimizationStep;
 struct StructureReport;
-
-class InputCache;
 
 /// The design of a search between two iterations, in the space in which the part is designed.
 struct SearchedDesign {

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/field/slice_context.h"
+#include "procedural/volume/density_bricks.h"
 #include "recipe/structure/analyse_part.h"
 #include "tests/app/commands/folder.h"
 #include "tests/app/commands/recipes.h"

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "procedural/volume/density_bricks.h"
 #include "recipe/shipped_texts.h"
 #include "recipe/structure/analyse_part.h"
 #include "recipe/structure/optimize_part.h"

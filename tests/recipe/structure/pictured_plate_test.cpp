@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "procedural/optimization/density_shape.h"
 #include "procedural/optimization/shared_solves.h"
+#include "procedural/volume/density_bricks.h"
 #include "recipe/build/build_job.h"
 #include "recipe/structure/structure_report.h"
 #include "tests/app/commands/folder.h"
