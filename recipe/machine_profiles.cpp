@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/base/user_config.h"
 #include "printers/common/profile_texts.h"
 #include "printers/registry.h"
 #include "recipe/printer_choice.h"
@@ -58,15 +58,8 @@ std::string join_alike(const std::string& word, const std::vector<std::string>& 
 bool names_profile_file(std::string_view text) { return text.ends_with(ending); }
 
 std::string user_profile_folder() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nothing sets it
-        return std::string(value ? value : "");
-    };
-    // A relative path must be ignored (XDG Base Directory Specification 0.8).
-    if (const std::string config = variable("XDG_CONFIG_HOME"); config.starts_with('/'))
-        return config + "/lamella/printers";
-    const std::string home = variable("HOME");
-    return home.empty() ? "" : home + "/.config/lamella/printers";
+    const std::string folder = user_config_folder();
+    return folder.empty() ? "" : folder + "/printers";
 }
 
 MachineProfiles::MachineProfiles() {

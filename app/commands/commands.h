@@ -14,6 +14,9 @@ void add_join_command(CLI::App& root, const std::vector<std::string>& arguments)
 /// `arguments` as in add_slice_command.
 void add_print_command(CLI::App& root, const std::vector<std::string>& arguments);
 void add_ports_command(CLI::App& root);
+void add_send_command(CLI::App& root);
+void add_watch_command(CLI::App& root);
+void add_hosts_command(CLI::App& root);
 void add_preview_command(CLI::App& root);
 void add_info_command(CLI::App& root);
 void add_extract_command(CLI::App& root);

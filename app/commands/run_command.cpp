@@ -66,6 +66,9 @@ int run_command(const std::vector<std::string>& arguments) {
         add_join_command(root, arguments);
         add_print_command(root, arguments);
         add_ports_command(root);
+        add_send_command(root);
+        add_watch_command(root);
+        add_hosts_command(root);
         add_preview_command(root);
         add_info_command(root);
         add_extract_command(root);
