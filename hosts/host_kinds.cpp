@@ -1,8 +1,13 @@
 // The table of hosts, one row each.
 #include <fmt/format.h>
 
+#include "hosts/duet.h"
 #include "hosts/moonraker.h"
+#include "hosts/nanodlp.h"
 #include "hosts/network_host.h"
+#include "hosts/octoprint.h"
+#include "hosts/prusalink.h"
+#include "hosts/sdcp.h"
 
 namespace lamella {
 
@@ -10,6 +15,11 @@ namespace {
 
 constexpr HostKind kinds[] = {
     {"moonraker", "Moonraker: Klipper machines (Mainsail, Fluidd)", make_moonraker},
+    {"octoprint", "OctoPrint, and what answers like it", make_octoprint, "local"},
+    {"prusalink", "PrusaLink: Prusa's machines", make_prusalink, "usb", "maker"},
+    {"sdcp", "SDCP 3: resin machines of Elegoo and others", make_sdcp, "local"},
+    {"duet", "Duet and other boards of RepRapFirmware 3", make_duet, "0:/gcodes"},
+    {"nanodlp", "NanoDLP: resin machines", make_nanodlp, "1"},
 };
 
 }  // namespace

@@ -63,7 +63,7 @@ class HostReader {
             throw mistake(table_, name + ": has no `url`; accepted: such as url = \"http://voron.local\"");
         check_address(host.access.url, where(*table_.get("url")) + "url");
         host.access.url = without_slash(host.access.url);
-        host.access.user = text("user");
+        host.access.user = table_.contains("user") ? text("user") : host.kind->default_user;
         host.access.key = text("key");
         if (const std::string variable = text("key_env"); !variable.empty()) {
             host.access.key = environment(variable);
@@ -148,6 +148,7 @@ std::optional<KnownHost> host_of_address(const std::string& named) {
     host.access.url = without_slash(named.substr(plus + 1));
     check_address(host.access.url, "--host");
     host.access.name = host.access.url.substr(host.access.url.find("://") + 3);
+    host.access.user = host.kind->default_user;
     host.storage = host.kind->default_storage;
     return host;
 }

@@ -8,7 +8,7 @@ namespace lamella {
 
 namespace {
 
-PrintState state_of(const std::string& klippy, const std::string& print) {
+PrintState klipper_state(const std::string& klippy, const std::string& print) {
     if (klippy == "startup") return PrintState::busy;
     if (klippy == "error" || klippy == "shutdown") return PrintState::failed;
     if (klippy != "ready") return PrintState::offline;
@@ -79,7 +79,7 @@ class Moonraker : public NetworkHost {
         HostStatus status;
         const auto server = read_json(http_, get("/server/info"));
         const std::string klippy = text_at(server, "/result/klippy_state");
-        status.state = state_of(klippy, "");
+        status.state = klipper_state(klippy, "");
         const HostResponse response = http_.ask(keyed(
             {.path = "/printer/objects/query?webhooks&print_stats&virtual_sdcard&display_status&extruder&"
                      "heater_bed",
@@ -88,7 +88,8 @@ class Moonraker : public NetworkHost {
         const auto json = read_json(http_, response);
         const nlohmann::json& objects = json_at(json, "/result/status");
         const std::string running = text_at(objects, "/webhooks/state");
-        status.state = state_of(running.empty() ? klippy : running, text_at(objects, "/print_stats/state"));
+        status.state =
+            klipper_state(running.empty() ? klippy : running, text_at(objects, "/print_stats/state"));
         status.file = text_at(objects, "/print_stats/filename");
         status.progress = number_at(objects, "/virtual_sdcard/progress");
         status.elapsed = number_at(objects, "/print_stats/print_duration");

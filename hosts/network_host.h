@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hosts/transfer/http_connection.h"
 #include "hosts/transfer/upload_source.h"
@@ -24,8 +25,8 @@ struct HostFacts {
 
 /// A file that a host has.
 struct HostFile {
-    std::uint64_t size = 0;  ///< bytes
-    std::string md5{};       ///< lower-case hexadecimal digits; empty: unknown
+    std::optional<std::uint64_t> size{};  ///< bytes; nothing: the host does not tell
+    std::string hash{};  ///< hexadecimal digits of MD5, SHA-1 or SHA-256; empty: the host does not tell
 };
 
 enum class PrintState : unsigned char {
@@ -92,7 +93,7 @@ struct HostKind {
     std::unique_ptr<NetworkHost> (*make)(const HostAccess& access, const std::string& storage,
                                          const CancelToken* cancel);
     const char* default_storage = "";  ///< where files go unless the user says otherwise
-    bool has_user = false;             ///< asks for a user's name beside the key
+    const char* default_user = "";  ///< whose password the key is, where the user says no other; empty: none
 };
 
 std::span<const HostKind> host_kinds();

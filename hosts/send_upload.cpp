@@ -31,8 +31,8 @@ class Sending {
         check_room(ask([&] { return host_.facts(); }));
         if (settings_.start) refuse_while_busy(ask([&] { return host_.status(); }));
         const std::optional<HostFile> had = ask([&] { return host_.find(settings_.name); });
-        if (had && is_whole(*had, source_->facts()) && !settings_.again) {
-            report_.size = had->size;
+        if (had && is_there(*had) && !settings_.again) {
+            report_.size = *had->size;
             note(fmt::format("{} is there already", settings_.name));
         } else if (!report_.prints) {
             upload();
@@ -66,10 +66,18 @@ class Sending {
         }
     }
 
-    /// Returns whether the host's file is the upload. Where nothing is known of the upload yet, its name says
-    /// so: it holds the job's hash.
-    static bool is_whole(const HostFile& file, const std::optional<UploadFacts>& facts) {
-        return !facts || (file.size == facts->size && (file.md5.empty() || file.md5 == facts->md5));
+    /// Returns whether the host's file has these bytes, as far as the host tells.
+    static bool agrees(const HostFile& file, const UploadFacts& facts) {
+        const bool known = file.hash.size() == facts.md5.size() || file.hash.size() == facts.sha1.size() ||
+                           file.hash.size() == facts.sha256.size();
+        const bool same_hash = file.hash == facts.md5 || file.hash == facts.sha1 || file.hash == facts.sha256;
+        return file.size.value_or(facts.size) == facts.size && (!known || same_hash);
+    }
+
+    /// Returns whether the host's file needs no upload. Where nothing is known of the upload yet, its name
+    /// says so, which holds the job's hash. A host that tells no size may have a part of it.
+    bool is_there(const HostFile& file) const {
+        return file.size && (!source_->facts() || agrees(file, *source_->facts()));
     }
 
     /// Throws InputError for a file that the host does not take.
@@ -109,8 +117,9 @@ class Sending {
                 const UploadFacts sent = host_.upload(
                     settings_.name, *source_, settings_.on_sent ? settings_.on_sent : [](std::uint64_t) {});
                 const std::optional<HostFile> file = ask([&] { return host_.find(settings_.name); });
-                if (file && is_whole(*file, sent)) {
-                    report_.size = file->size;
+                // A host that tells no size has checked the upload by its hash, or by reading it.
+                if (file && agrees(*file, sent)) {
+                    report_.size = sent.size;
                     report_.uploaded = true;
                     return;
                 }

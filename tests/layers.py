@@ -20,7 +20,7 @@ printers/gcode printers/serial printers
 recipe/pieces recipe recipe/keys recipe/inputs recipe/layering recipe/build recipe/placement recipe/structure recipe/output
 bindings
 hosts/transfer hosts
-app/console app/ranks app/charts app/reports app/http app/jobs app/server app/commands
+app/console app/ranks app/charts app/reports app/http app/jobs app/server app/help app/commands
 """.split()
 # Folders that never include each other, though one stands above the other in the list.
 APART = [("procedural", "printers")]

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "app/commands/commands.h"
-#include "app/commands/completion_scripts.h"
+#include "app/help/completion_scripts.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/commands/commands.h"
-#include "app/commands/man_page.h"
+#include "app/help/man_page.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
 #include "engine/base/error.h"

@@ -106,17 +106,16 @@ void add_watch_command(CLI::App& root) {
                     "Seconds without an answer after which the host is given up; default: 60")
         ->check(CLI::Range(0.0, 86400.0));
     command
-        .add_option("--then", options->then,
-                    "Program with its arguments, run when the print has ended, without a shell; default: "
-                    "`done` in hosts.toml")
-        ->type_name("PROGRAM [ARGUMENT...]")
-        ->expected(1, 1000);
+        .add_option("PROGRAM", options->then,
+                    "After --: a program and its arguments, run when the print has ended, without a shell; "
+                    "default: `done` in hosts.toml")
+        ->expected(0, 1000);
     finish_command(
         command,
         "  lamella watch voron\n"
         "  lamella watch voron --json --interval 10\n"
         "  lamella watch voron --pause\n"
-        "  lamella watch voron --then notify-send \"The print has ended\"\n"
+        "  lamella watch voron -- notify-send \"The print has ended\"\n"
         "The program finds LAMELLA_HOST, LAMELLA_FILE and LAMELLA_STATE in its environment. Exit codes: 0\n"
         "the print has ended well, or there was none; 3 it has not, or the host does not answer.");
     command.callback([options] { run(*options); });

@@ -39,7 +39,7 @@ struct Transfer {
     HostResponse response{};
     std::uint64_t sent = 0;
     bool waits_for_bytes = false;  // the upload has none at the moment
-    bool body_began = false;
+    bool asked = false;            // the request was sent, and no header of an answer has come since
     double moved_at = steady_seconds();
     std::exception_ptr failure{};
 };
@@ -63,7 +63,6 @@ std::size_t take_body(char* out, std::size_t size, std::size_t count, void* user
             transfer.waits_for_bytes = true;
             return CURL_READFUNC_PAUSE;
         }
-        transfer.body_began = true;
         transfer.sent += *taken;
         transfer.moved_at = steady_seconds();
         if (transfer.request.on_sent) transfer.request.on_sent(transfer.sent);
@@ -85,6 +84,7 @@ std::size_t store_body(char* bytes, std::size_t size, std::size_t count, void* u
 std::size_t store_header(char* bytes, std::size_t size, std::size_t count, void* user) {
     auto& transfer = *static_cast<Transfer*>(user);
     transfer.moved_at = steady_seconds();
+    transfer.asked = false;
     const std::string_view line(bytes, size * count);
     if (line.starts_with("HTTP/")) transfer.response.headers.clear(), transfer.response.body.clear();
     const std::size_t colon = line.find(':');
@@ -92,6 +92,17 @@ std::size_t store_header(char* bytes, std::size_t size, std::size_t count, void*
         transfer.response.headers[lower_case(line.substr(0, colon))] = trimmed(line.substr(colon + 1));
     }
     return size * count;
+}
+
+/// Curl repeats a request when the connection is closed that it has kept from an earlier one. Whether a
+/// request that changes something was heard is not known then: it must not be sent twice.
+int allow_request(void* user, char* /*primary_ip*/, char* /*local_ip*/, int /*primary_port*/,
+                  int /*local_port*/) {
+    auto& transfer = *static_cast<Transfer*>(user);
+    const bool is_question = transfer.request.method == "GET" && !transfer.request.once;
+    if (transfer.asked && !is_question) return CURL_PREREQFUNC_ABORT;
+    transfer.asked = true;
+    return CURL_PREREQFUNC_OK;
 }
 
 /// A body that was partly sent cannot be sent again from its start: the caller opens it anew.
@@ -163,6 +174,8 @@ void HttpConnection::Handles::set_up(const HostAccess& access, const HostRequest
     }
     curl_easy_setopt(easy, CURLOPT_WRITEFUNCTION, store_body);
     curl_easy_setopt(easy, CURLOPT_WRITEDATA, &transfer);
+    curl_easy_setopt(easy, CURLOPT_PREREQFUNCTION, allow_request);
+    curl_easy_setopt(easy, CURLOPT_PREREQDATA, &transfer);
     curl_easy_setopt(easy, CURLOPT_HEADERFUNCTION, store_header);
     curl_easy_setopt(easy, CURLOPT_HEADERDATA, &transfer);
     if (request.upload != nullptr || request.method == "POST" || request.method == "PUT") {
@@ -292,17 +305,25 @@ HostResponse HttpConnection::ask(const HostRequest& request) {
         status);
 }
 
-std::string url_component(const std::string& text) {
+namespace {
+
+std::string percent_encoded(const std::string& text, std::string_view also_plain) {
     std::string encoded;
-    for (const unsigned char c : text) {
+    for (const char c : text) {
         const bool is_letter_or_digit =
             (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        if (is_letter_or_digit || c == '-' || c == '.' || c == '_' || c == '~')
-            encoded += static_cast<char>(c);
+        if (is_letter_or_digit || also_plain.find(c) != std::string_view::npos)
+            encoded += c;
         else
-            encoded += fmt::format("%{:02X}", c);
+            encoded += fmt::format("%{:02X}", static_cast<unsigned char>(c));
     }
     return encoded;
 }
+
+}  // namespace
+
+std::string url_component(const std::string& text) { return percent_encoded(text, "-._~"); }
+
+std::string url_path(const std::string& text) { return percent_encoded(text, "-._~/"); }
 
 }  // namespace lamella

@@ -26,11 +26,12 @@ struct HostAccess {
 
 struct HostRequest {
     std::string method = "GET";
-    std::string path;                            ///< below the host's URL, with its query
+    std::string path{};                          ///< below the host's URL, with its query
     std::vector<std::string> headers{};          ///< "Name: value"
     std::string content{};                       ///< body, unless `upload` is given
     UploadBytes* upload = nullptr;               ///< body
     std::optional<std::uint64_t> upload_size{};  ///< bytes of `upload`; nothing: it is sent in chunks
+    bool once = false;                           ///< a GET that changes something, and must not be sent twice
     std::vector<int> also{};                     ///< statuses besides 200 to 299 that are no failure
     double patience = 20;                        ///< longest time without a byte of the host or to it, s
     /// Called with the bytes of the body that were sent so far; may be empty.
@@ -72,5 +73,7 @@ class HttpConnection {
 
 /// Returns text as a component of a URL: everything but letters, digits and -._~ is percent-encoded.
 std::string url_component(const std::string& text);
+/// The same, but slashes stay.
+std::string url_path(const std::string& text);
 
 }  // namespace lamella

@@ -8,17 +8,19 @@
 
 namespace lamella {
 
-UploadDigest::UploadDigest() : sha256_(begin(EVP_sha256())), md5_(begin(EVP_md5())) {}
+UploadDigest::UploadDigest()
+    : sha256_(begin(EVP_sha256())), sha1_(begin(EVP_sha1())), md5_(begin(EVP_md5())) {}
 
 UploadDigest::Context UploadDigest::begin(const EVP_MD* kind) {
     Context context(EVP_MD_CTX_new());
     if (!context || EVP_DigestInit_ex(context.get(), kind, nullptr) != 1)
-        throw FaultError("this computer's OpenSSL has no SHA-256 or no MD5, which uploads are checked by");
+        throw FaultError("this computer's OpenSSL lacks SHA-256, SHA-1 or MD5, which uploads are checked by");
     return context;
 }
 
 void UploadDigest::add(std::span<const char> bytes) {
     EVP_DigestUpdate(sha256_.get(), bytes.data(), bytes.size());
+    EVP_DigestUpdate(sha1_.get(), bytes.data(), bytes.size());
     EVP_DigestUpdate(md5_.get(), bytes.data(), bytes.size());
     crc32_ = static_cast<std::uint32_t>(
         ::crc32_z(crc32_, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
@@ -37,6 +39,8 @@ std::string UploadDigest::hexadecimal(const Context& context) {
     return text;
 }
 
-UploadFacts UploadDigest::facts() const { return {size_, hexadecimal(sha256_), hexadecimal(md5_), crc32_}; }
+UploadFacts UploadDigest::facts() const {
+    return {size_, hexadecimal(sha256_), hexadecimal(sha1_), hexadecimal(md5_), crc32_};
+}
 
 }  // namespace lamella

@@ -14,6 +14,7 @@ namespace lamella {
 struct UploadFacts {
     std::uint64_t size = 0;  ///< bytes
     std::string sha256;      ///< lower-case hexadecimal digits
+    std::string sha1;        ///< lower-case hexadecimal digits
     std::string md5;         ///< lower-case hexadecimal digits
     std::uint32_t crc32 = 0;
 };
@@ -34,7 +35,7 @@ class UploadDigest {
     static Context begin(const EVP_MD* kind);
     static std::string hexadecimal(const Context& context);
 
-    Context sha256_, md5_;
+    Context sha256_, sha1_, md5_;
     std::uint32_t crc32_ = 0;
     std::uint64_t size_ = 0;
 };

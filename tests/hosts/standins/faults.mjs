@@ -42,6 +42,12 @@ export class Standin {
   }
 
   async close() {
+    this.over = true;
+    await this.stop();
+  }
+
+  /** Breaks all connections and takes no more. */
+  async stop() {
     for (const socket of this.sockets) socket.destroy();
     if (this.server.listening) await new Promise((resolve) => this.server.close(resolve));
   }
@@ -61,8 +67,8 @@ export class Standin {
 
   async restart(milliseconds) {
     const { port } = this;
-    await this.close();
-    setTimeout(() => this.listen(port).catch(() => {}), milliseconds);
+    await this.stop();
+    setTimeout(() => { if (!this.over) this.listen(port).catch(() => {}); }, milliseconds);
   }
 
   async answer(request, response) {
@@ -73,7 +79,7 @@ export class Standin {
       await this.handle(request, response, this);
     } catch (error) {
       if (error.message !== 'cut') console.error(error);
-      request.socket.destroy();
+      request.socket?.destroy();
     }
   }
 
@@ -128,7 +134,7 @@ export class Standin {
 /** Answers, unless the response's fault keeps the answer back. */
 export function send(response, status, json, headers = {}) {
   if (response.fault?.mute) {
-    response.socket.destroy();
+    response.socket?.destroy();
     return;
   }
   const text = json === null ? '' : typeof json === 'string' ? json : JSON.stringify(json);

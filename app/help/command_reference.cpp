@@ -1,11 +1,12 @@
 // Reading the reference off the options of the command line, the settings table and the lists that ship.
-#include "app/commands/command_reference.h"
+#include "app/help/command_reference.h"
 
 #include <algorithm>
 #include <cctype>
 #include <iterator>
 #include <string_view>
 
+#include "app/help/command_help.h"
 #include "recipe/base_material.h"
 #include "recipe/machine_profiles.h"
 #include "recipe/settings.h"
@@ -13,7 +14,6 @@
 namespace lamella {
 namespace {
 
-constexpr std::string_view recipe_group = "Recipe [";
 constexpr std::string_view examples_heading = "Examples:\n";
 
 /// The row of the settings table that an option stands for; null when it stands for none.

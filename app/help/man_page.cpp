@@ -1,13 +1,13 @@
 // Manual pages from the reference of the command line.
-#include "app/commands/man_page.h"
+#include "app/help/man_page.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-#include "app/commands/command_help.h"
-#include "app/commands/roff.h"
+#include "app/help/command_help.h"
+#include "app/help/roff.h"
 
 namespace lamella {
 namespace {

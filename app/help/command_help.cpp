@@ -1,4 +1,4 @@
-#include "app/commands/command_help.h"
+#include "app/help/command_help.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 namespace lamella {
 namespace {
 
-constexpr std::string_view recipe_group = "Recipe [";
 constexpr std::string_view common_group = "Recipe, the keys that most jobs need";
 constexpr auto common_options =
     std::to_array<std::string_view>({"--mesh",           "--unit",

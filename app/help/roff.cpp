@@ -1,5 +1,5 @@
 // Letters and words that mean something to roff.
-#include "app/commands/roff.h"
+#include "app/help/roff.h"
 
 namespace lamella {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "app/commands/completion_scripts.h"
+#include "app/help/completion_scripts.h"
 
 namespace lamella {
 namespace {

@@ -4,8 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace lamella {
+
+/// What the groups of options begin with that are made from the settings table: "Recipe [foam]".
+inline constexpr std::string_view recipe_group = "Recipe [";
 
 /// What the program's exit code tells.
 struct ExitCode {

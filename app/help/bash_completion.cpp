@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "app/commands/completion_scripts.h"
+#include "app/help/completion_scripts.h"
 
 namespace lamella {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/commands/command_reference.h"
+#include "app/help/command_reference.h"
 
 namespace lamella {
 
