@@ -3,9 +3,9 @@
 #include <string>
 
 #include "app/commands/commands.h"
-#include "app/help/completion_scripts.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
+#include "app/help/completion_scripts.h"
 
 namespace lamella {
 

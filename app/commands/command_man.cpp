@@ -5,9 +5,9 @@
 #include <string>
 
 #include "app/commands/commands.h"
-#include "app/help/man_page.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/text_output.h"
+#include "app/help/man_page.h"
 #include "engine/base/error.h"
 #include "recipe/settings.h"
 

@@ -105,11 +105,10 @@ void add_watch_command(CLI::App& root) {
         .add_option("--patience", options->watching.patience,
                     "Seconds without an answer after which the host is given up; default: 60")
         ->check(CLI::Range(0.0, 86400.0));
-    command
-        .add_option("PROGRAM", options->then,
-                    "After --: a program and its arguments, run when the print has ended, without a shell; "
-                    "default: `done` in hosts.toml")
-        ->expected(0, 1000);
+    command.add_option(
+        "PROGRAM", options->then,
+        "After --: a program and its arguments, run when the print has ended, without a shell; "
+        "default: `done` in hosts.toml");
     finish_command(
         command,
         "  lamella watch voron\n"

@@ -1,11 +1,11 @@
 // Parses the command line and runs its subcommand.
 #include "app/commands/run_command.h"
 
-#include "app/help/command_help.h"
 #include "app/commands/commands.h"
 #include "app/commands/recipe_options.h"
 #include "app/console/error_report.h"
 #include "app/console/text_output.h"
+#include "app/help/command_help.h"
 
 namespace lamella {
 

@@ -122,7 +122,10 @@ export function makeSdcp(options = {}) {
   host.stop = () => {
     for (const client of clients) client.terminate();
     clients.clear();
-    if (host.over) host.search.close();
+    if (host.over && host.search) {
+      host.search.close();
+      host.search = null;
+    }
     return stop.call(host);
   };
   return host;

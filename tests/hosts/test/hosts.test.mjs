@@ -24,6 +24,7 @@ for (const host of hosts) {
     assert.equal(standin.starts.length, 1);
     assert.equal(JSON.parse(first.out).bytes, bytes.length);
     assert.match(first.error, /nothing is encrypted/);
+    assert.ok(!standin.wasted, 'no body is sent before the host knows who asks');
 
     const again = await run(['send', file, '--host', 'printer', '--start', '--json', ...quick], config);
     assert.equal(again.code, 0, again.error);
