@@ -170,8 +170,7 @@ void KlipperSender::on_subscribed(const Json& status, double now) {
                                 "CANCEL_PRINT if that is paused",
                                 without_controls(text_at(print, "filename"))));
     }
-    // Left by somebody else: Klipper would not pause once more.
-    if (std::exchange(paused_, false)) urgent_.emplace_back("CLEAR_PAUSE");
+    forget_pause();  // left by somebody else; Klipper would not pause once more
     state_ = State::running;
     rests_since_ = now;
     remark_.clear();

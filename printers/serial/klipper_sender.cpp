@@ -78,11 +78,10 @@ void KlipperSender::drop_dialogue() {
 
 void KlipperSender::check_time(double now) {
     if (state_ == State::running) {
-        if (now - heard_ > silence_patience)
+        if (now - heard_ >= silence_patience)
             return stop(StopKind::unanswered, "klippy is silent, and its heaters may be on");
-        const bool asks = std::ranges::any_of(
-            asked_, [](const auto& request) { return request.second == Asked::sign_of_life; });
-        if (now - heard_ > sign_of_life_after && !asks) ask(Asked::sign_of_life, "info", Json::object());
+        if (now - heard_ >= sign_of_life_after && !awaits(Asked::sign_of_life))
+            ask(Asked::sign_of_life, "info", Json::object());
         return;
     }
     if (state_ == State::idle || now < state_until_) return;
@@ -100,7 +99,12 @@ void KlipperSender::check_time(double now) {
 double KlipperSender::next_wake() const {
     if (state_ == State::idle) return never;
     if (state_ != State::running) return state_until_;
-    return std::min(heard_ + sign_of_life_after, rests_since_ + longest_rest);
+    const double life = heard_ + (awaits(Asked::sign_of_life) ? silence_patience : sign_of_life_after);
+    return rests() ? std::min(life, rests_since_ + longest_rest) : life;
+}
+
+bool KlipperSender::awaits(Asked what) const {
+    return std::ranges::any_of(asked_, [what](const auto& request) { return request.second == what; });
 }
 
 void KlipperSender::send_script(std::deque<std::string>& lines, bool of_job, double now) {
@@ -189,7 +193,7 @@ void KlipperSender::feed(double now) {
         finish_sent_ = true;
         return;
     }
-    if (sent_job_ == 0 || finish_sent_ || now - rests_since_ < longest_rest) return;
+    if (!rests() || now - rests_since_ < longest_rest) return;
     // A dwell of a moment keeps Klipper from taking a pause, or a layer that takes long, for the end.
     std::deque<std::string> dwell{"G4 P1"};
     send_script(dwell, false, now);
@@ -203,6 +207,10 @@ void KlipperSender::halt(double) {
 void KlipperSender::hold_motion(bool held) {
     if (!held && paused_) urgent_.emplace_front("RESUME");
     paused_ = paused_ && held;
+}
+
+void KlipperSender::forget_pause() {
+    if (std::exchange(paused_, false)) urgent_.emplace_back("CLEAR_PAUSE");
 }
 
 void KlipperSender::end_waiting() {

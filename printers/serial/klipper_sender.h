@@ -45,6 +45,7 @@ class KlipperSender : public LineSender {
     bool cancel_halts() const override { return false; }
     /// Has Klipper resume if it has paused by itself: its own RESUME restores where it was.
     void hold_motion(bool held) override;
+    void forget_pause() override;
     void end_waiting() override;
     std::optional<UserWait> user_wait() const override;
     void choose(std::size_t button) override;
@@ -111,6 +112,9 @@ class KlipperSender : public LineSender {
     void refuse(const Failure& failure);
     void note_pause(bool paused);
 
+    bool awaits(Asked what) const;
+    /// Returns true if Klipper has nothing to do although the job goes on.
+    bool rests() const { return !script_ && !failing_ && sent_job_ > 0 && !finish_sent_; }
     void send_script(std::deque<std::string>& lines, bool of_job, double now);
     bool waits_for_heat(const std::string& command, double now);
     std::optional<HeatWait> heat_wait(const std::string& command) const;

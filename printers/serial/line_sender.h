@@ -129,6 +129,8 @@ class LineSender {
     void hold(bool held) { held_ = held; }
     /// Pauses or continues the motion itself, if the machine can do so.
     virtual void hold_motion(bool /*held*/) {}
+    /// Ends a pause of the machine's own without going on.
+    virtual void forget_pause() {}
     /// Returns the number of lines of the host that are not sent yet.
     std::size_t host_lines() const { return urgent_.size(); }
     void drop_host_lines() { urgent_.clear(); }

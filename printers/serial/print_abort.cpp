@@ -101,6 +101,7 @@ void PrintLink::switch_off() {
     for (std::string& line : sender_->machine().switch_off(!is_klipper()))
         sender_->interject(std::move(line));
     if (is_klipper()) sender_->interject("M400");
+    sender_->forget_pause();
     phase_ = Phase::switching_off;
 }
 

@@ -59,6 +59,7 @@ class KlipperBench {
     std::vector<std::string> actions, messages;
     KlipperSender sender;
     double now = 0;
+    int overdue = 0;    ///< times that the sender was due right after it had worked: a loop would spin
     bool deaf = false;  ///< klippy hears and says nothing
 
   private:
@@ -93,6 +94,7 @@ class KlipperBench {
     void step() {
         now += 0.0005;
         sender.tick(now);
+        overdue += sender.wake_at() <= now ? 1 : 0;
         const std::string out(sender.output());
         const std::size_t taken = out.empty() ? 0 : 1 + random_() % out.size();
         send(there_, out.substr(0, taken));

@@ -127,8 +127,25 @@ TEST_CASE("a pause by another program holds the job, and resuming has Klipper re
     link.resume();
     link.finish();
     CHECK(has(machine.executed(), "RESUME"));
+    CHECK(!has(machine.executed(), "CLEAR_PAUSE"));
     const auto wanted = layer(0, 2000);
     CHECK(first_difference(moves_of(machine.executed()), {wanted.begin() + 1, wanted.end()}) == "");
+}
+
+TEST_CASE("a print that is stopped in a pause of Klipper's own leaves none behind") {
+    KlipperOnSocket machine({}, 10);
+    PrintLink link(settings_of(machine));
+    link.connect();
+    link.submit(chunk_of(klipper_start, -1));
+    link.submit(chunk_of(layer(0, 2000), 0));
+    REQUIRE(wait_for(20, [&] { return link.status().lines_answered > 200; }));
+    machine.with([](SimulatedKlipper& klippy, double) { klippy.run_of_another("PAUSE"); });
+    REQUIRE(wait_for(20, [&] { return link.status().paused; }));
+    link.stop();
+    CHECK_THROWS_AS(link.finish(), Interrupted);
+    CHECK(machine.executed().back() == "CLEAR_PAUSE");
+    CHECK(
+        !machine.with([](SimulatedKlipper& klippy, double) { return klippy.paused() || klippy.heating(); }));
 }
 
 TEST_CASE("another program's cancellation ends the print with its heaters off") {

@@ -294,6 +294,20 @@ TEST_CASE("a long pause does not let Klipper switch off") {
     bench.run(200);
     const auto& executed = bench.klippy.executed();
     CHECK(std::count(executed.begin(), executed.end(), "G4 P1") == 3);
+    CHECK(bench.overdue == 0);
+}
+
+TEST_CASE("while a script takes long, nothing is due") {
+    KlipperOptions options;
+    options.heating_rate = 0.01;
+    KlipperBench bench(options);
+    REQUIRE(bench.connect());
+    bench.run(100);
+    bench.push({"G90", "M190 S26.5"});
+    bench.run(200);
+    CHECK(bench.klippy.executed().back() == "M190 S26.5");
+    CHECK(bench.sender.line_wait() == LineWait::none);
+    CHECK(bench.overdue == 0);
 }
 
 TEST_CASE("a klippy that says nothing any more ends the job") {
@@ -304,6 +318,7 @@ TEST_CASE("a klippy that says nothing any more ends the job") {
     bench.deaf = true;
     REQUIRE(bench.run_until(100, [&] { return bench.sender.stopped().has_value(); }));
     CHECK(mentions(bench.sender.stopped()->why, "silent"));
+    CHECK(bench.overdue == 0);
 }
 
 TEST_CASE("a lost socket ends the job, unless it has not begun") {

@@ -37,7 +37,8 @@ TEST_CASE("a move from standstill to standstill takes its way at speed and one r
     CHECK(times("G90\nG1 X100 F6000\n")[1] == Approx(1.1));
     // 0.4 mm never reach it: 2 sqrt(s / a).
     CHECK(times("G1 X0.4 F6000\n")[0] == Approx(2 * std::sqrt(0.4 / 1000)));
-    CHECK(times("G1 X0.4 F6000\n", false, {4000, 4000, 0.013, 50})[0] == Approx(2 * std::sqrt(0.4 / 4000)));
+    CHECK(times("G1 X0.4 F6000\n", Dialect::marlin, {4000, 4000, 0.013, 50})[0] ==
+          Approx(2 * std::sqrt(0.4 / 4000)));
 }
 
 TEST_CASE("a straight line in pieces takes as long as in one, and a corner costs time") {
@@ -92,7 +93,7 @@ TEST_CASE("GRBL: lines without a G word go on, fast moves take the rapid speed, 
 }
 
 TEST_CASE("a line that cannot be sent is told by its number in the whole text") {
-    ChunkMaker maker(false);
+    ChunkMaker maker(Dialect::marlin);
     maker.clean("; comment\nG28\n\nG1 X1\n");
     CHECK_THROWS_WITH(maker.clean("G1 X2\n@pause\n"), Catch::Contains("line 6: \"@pause\""));
     ChunkMaker skipping(Dialect::grbl);
