@@ -16,6 +16,7 @@
 #include "printers/archive/output_file.h"
 #include "printers/gcode/gcode.h"
 #include "printers/registry.h"
+#include "printers/serial/klipper_socket.h"
 #include "printers/serial/serial_output.h"
 
 namespace lamella {
@@ -24,7 +25,7 @@ namespace {
 
 struct PrintOptions : JobOptions {
     LinkSettings link;
-    std::string firmware;  ///< marlin or grbl; empty: that of the recipe's printer, marlin for a ready file
+    std::string firmware;  ///< see choose_dialect
     std::vector<double> park;
     std::optional<double> z;
     bool dry_run = false;
@@ -38,19 +39,6 @@ bool is_gcode_file(const std::string& input) {
         if (input.ends_with(ending)) return true;
     }
     return false;
-}
-
-/// Returns true if lines are for grbl, false if they are for Marlin. Throws InputError when the recipe's
-/// printer uses the other one.
-bool is_grbl(const PrintOptions& options, const std::optional<Recipe>& recipe) {
-    if (!recipe) return options.firmware == "grbl";
-    const bool grbl = recipe->printer.gcode.flavour == Flavour::grbl;
-    if (!options.firmware.empty() && grbl != (options.firmware == "grbl")) {
-        throw InputError("--firmware " + options.firmware + " conflicts with the printer's flavour; " +
-                         (grbl ? "a laser under grbl does not accept Marlin G-code; accepted: --firmware grbl"
-                               : "accepted: --printer-flavour grbl, to cut layers with a laser"));
-    }
-    return grbl;
 }
 
 void say(const PrintOptions& options, const std::string& text) {
@@ -75,8 +63,17 @@ void dry_run(const PrintOptions& options, const std::optional<Recipe>& recipe,
              const std::optional<PreparedJob>& prepared) {
     DryRun report;
     produce(options, recipe, prepared, make_dry_run(options.link, report));
-    const double wire = static_cast<double>(report.bytes) * 10 / options.link.baud;
     TextOutput out("");
+    if (options.link.dialect == Dialect::klipper) {
+        out.write(fmt::format(
+            "{} lines, {} bytes in scripts: {:.0f} s of motion at the speeds asked for, {:.0f} "
+            "s with acceleration\nat its densest {:.0f} lines/s\nsent to a Klipper that "
+            "answers at once: {:.0f} lines/s\n",
+            report.lines, report.bytes, report.seconds, report.model_seconds, report.need.lines,
+            report.sending_seconds > 0 ? static_cast<double>(report.lines) / report.sending_seconds : 0));
+        return out.close();
+    }
+    const double wire = static_cast<double>(report.bytes) * 10 / options.link.baud;
     out.write(fmt::format(
         "{} lines, {} bytes: {:.0f} s of motion at the speeds asked for, {:.0f} s with acceleration, "
         "{:.0f} s on a wire of {} baud\n"
@@ -125,8 +122,9 @@ void run(PrintOptions options) {
     options.link.cancel = &cancel;
     if (options.link.port.empty() && !options.dry_run)
         throw InputError(
-            "--port: missing; accepted: the printer's serial port, such as /dev/ttyUSB0; `lamella ports` "
-            "lists them");
+            "--port: missing; accepted: the printer's serial port, such as /dev/ttyUSB0, or the API socket "
+            "of "
+            "Klipper; `lamella ports` lists them");
     const bool file = is_gcode_file(options.recipe.input());
     std::string name = options.recipe.input();
     std::optional<Recipe> recipe;
@@ -142,7 +140,7 @@ void run(PrintOptions options) {
         suit_printer(options.link, recipe->printer);
         prepared = prepare_job(options, *recipe, cancel);
     }
-    options.link.grbl = is_grbl(options, recipe);
+    choose_dialect(options.link, options.firmware, recipe ? &recipe->printer : nullptr);
     if (!options.park.empty()) options.link.park_x = options.park[0], options.link.park_y = options.park[1];
     if (options.link.journal.empty()) options.link.journal = name + ".print.journal";
     if (options.dry_run) return dry_run(options, recipe, prepared);
@@ -161,7 +159,9 @@ void list_ports() {
                 port.by_id;
         text += "\n";
     }
-    if (text.empty()) text = "no serial port found; is the printer plugged in and switched on?\n";
+    for (const std::string& socket : klipper_sockets()) text += socket + "  API socket of Klipper\n";
+    if (text.empty())
+        text = "no serial port and no socket of Klipper found; is the printer plugged in and switched on?\n";
     TextOutput out("");
     out.write(text);
     out.close();
@@ -169,16 +169,18 @@ void list_ports() {
 
 void add_link_options(CLI::App& command, PrintOptions& options) {
     LinkSettings& link = options.link;
-    command.add_option("--port", link.port, "Serial port of the printer")
+    command.add_option("--port", link.port, "Serial port of the printer, or the API socket of Klipper")
         ->type_name("DEVICE")
         ->group("Printer");
     command.add_option("--baud", link.baud, "Speed of the serial line, baud; default: 250000")
         ->check(CLI::Range(1200, 4000000))
         ->group("Printer");
     command
-        .add_option("--firmware", options.firmware,
-                    "marlin or grbl; default: that of the recipe's printer, marlin for a ready file")
-        ->check(CLI::IsMember({"marlin", "grbl"}))
+        .add_option(
+            "--firmware", options.firmware,
+            "marlin, grbl or klipper; default: klipper for a socket, else that of the recipe's printer, "
+            "marlin for a ready file")
+        ->check(CLI::IsMember({"marlin", "grbl", "klipper"}))
         ->group("Printer");
     command
         .add_option("--send-window", link.sender.window,
@@ -233,7 +235,9 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
     auto options = std::make_shared<PrintOptions>();
     options->repeat = resuming(arguments);
     CLI::App& command =
-        *root.add_subcommand("print", "Compute layers and print them at the same time, over a serial line");
+        *root.add_subcommand("print",
+                             "Compute layers and print them at the same time, over a serial line or "
+                             "Klipper's socket");
     options->recipe.add_to(command);
     command.get_option("INPUT")->description(
         "Recipe (.toml), model (.stl, .obj, .ply, .3mf) or ready G-code (.gcode, .gco, .g, .nc, .ngc)");
@@ -254,6 +258,7 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
         "  lamella print insole.toml --port /dev/serial/by-id/usb-1a86_USB_Serial-if00-port0 --baud 115200\n"
         "  lamella print insole.toml --dry-run\n"
         "  lamella print ready.gcode --port /dev/ttyACM0 --log print.log\n"
+        "  lamella print insole.toml --printer klipper --port ~/printer_data/comms/klippy.sock\n"
         "  lamella print engraving.nc --port /dev/ttyUSB0 --baud 115200 --firmware grbl\n"
         "Keys: p pauses, r resumes or tells a waiting printer that you are done, 1 to 9 press a button of "
         "what\n"
@@ -266,7 +271,8 @@ void add_print_command(CLI::App& root, const std::vector<std::string>& arguments
 }
 
 void add_ports_command(CLI::App& root) {
-    CLI::App& command = *root.add_subcommand("ports", "List the serial ports of this computer");
+    CLI::App& command =
+        *root.add_subcommand("ports", "List the serial ports and the sockets of Klipper of this computer");
     finish_command(command, "  lamella ports");
     command.callback([] { list_ports(); });
 }

@@ -65,7 +65,7 @@ std::string status_text(const LinkStatus& status, int last_layer, std::size_t co
         const int last = last_layer > 0 ? last_layer : status.progress.layers;
         fields.push_back(fmt::format("{} {}/{}", last_layer > 0 ? "layer" : "part", status.layer + 1, last));
     }
-    if (!status.grbl) {
+    if (status.dialect != Dialect::grbl) {
         const Temperatures& t = status.temperatures;
         fields.push_back(fmt::format("nozzle {:.0f}/{:.0f}", t.nozzle, t.nozzle_target));
         fields.push_back(fmt::format("bed {:.0f}/{:.0f}", t.bed, t.bed_target));
@@ -85,13 +85,16 @@ std::string status_text(const LinkStatus& status, int last_layer, std::size_t co
 }
 
 std::string greeting_text(const LinkStatus& status, bool keys) {
-    const std::string name = !status.firmware.empty() ? status.firmware
-                             : status.grbl            ? "GRBL"
-                                                      : "unknown firmware";
-    const std::string ahead = status.bytes_ahead == 0
+    const std::string name = !status.firmware.empty()          ? status.firmware
+                             : status.dialect == Dialect::grbl ? "GRBL"
+                                                               : "unknown firmware";
+    const bool klipper = status.dialect == Dialect::klipper;
+    const std::string ahead = klipper ? "one script at a time"
+                              : status.bytes_ahead == 0
                                   ? "one line at a time"
                                   : fmt::format("up to {} bytes ahead", status.bytes_ahead);
-    const char* stops = status.emergency_parser
+    const char* stops = klipper ? "stops it after the moves it has got, with its heaters off"
+                        : status.emergency_parser
                             ? "stops it at once"
                             : "stops it when the moves it has got are done (it has no emergency parser; in "
                               "danger press x or its reset button)";

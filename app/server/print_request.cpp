@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/http/http_server.h"
+#include "engine/base/error.h"
+#include "printers/serial/klipper_socket.h"
 #include "printers/serial/serial_output.h"
 #include "printers/serial/serial_port.h"
 
@@ -68,12 +70,13 @@ class PrintMembers {
     std::string place_;
 };
 
-/// Returns the port, if it is one. No other file may be opened by way of it.
-std::string serial_line(const Json& to) {
+/// Returns the port, if it is one. No other file may be opened by way of it, and no other socket.
+std::string port_of(const Json& to) {
     const Json name = to.contains("serial") ? to["serial"] : Json();
     std::string path = name.is_string() ? name.get<std::string>() : "";
-    const std::string accepted =
-        "accepted: the path of a serial port below /dev, such as those of GET /api/ports";
+    const std::string accepted = "accepted: the path of a serial port below /dev, or one of GET /api/ports";
+    const std::vector<std::string> sockets = klipper_sockets();
+    if (std::ranges::find(sockets, path) != sockets.end()) return path;
     if (!path.starts_with("/dev/") || path.find('\0') != std::string::npos || path.size() > 255)
         throw HttpError(400, "to.serial: " + accepted);
     std::error_code error;
@@ -89,7 +92,7 @@ void read_serial_line(const Json& to, LinkSettings& link) {
         {"serial", "baud", "reset", "send_window", "ping_pong", "within_slots", "greeting", "reconnect"});
     constexpr int slowest = 1200, fastest = 4000000, least_window = 64, most_window = 65536;
     constexpr double longest_greeting = 60, longest_loss = 86400;  // s
-    link.port = serial_line(to);
+    link.port = port_of(to);
     link.baud = line.integer("baud", link.baud, slowest, fastest);
     line.read("reset", link.reset_board);
     SenderSettings& sender = link.sender;
@@ -110,6 +113,11 @@ PrintRequest read_print_request(const Json& body, const PrinterProfile& printer)
     PrintRequest request;
     suit_printer(request.link, printer);
     read_serial_line(body["to"], request.link);
+    try {
+        choose_dialect(request.link, "", &printer);
+    } catch (const InputError& error) {
+        throw HttpError(400, error.what());
+    }
     members.read("park", request.link.park_x, request.link.park_y);
     members.read("resume", request.resume);
     members.read("discard_journal", request.discard_journal);

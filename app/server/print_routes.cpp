@@ -1,5 +1,6 @@
 // Printing: ports, the start of a print, its state, and requests to it.
 #include "app/server/server_state.h"
+#include "printers/serial/klipper_socket.h"
 #include "printers/serial/serial_port.h"
 
 namespace lamella {
@@ -12,6 +13,8 @@ Json ports_json() {
     Json list = Json::array();
     for (const PortInfo& port : serial_ports())
         list.push_back({{"path", port.path}, {"by_id", port.by_id}, {"description", port.description}});
+    for (const std::string& socket : klipper_sockets())
+        list.push_back({{"path", socket}, {"by_id", ""}, {"description", "API socket of Klipper"}});
     return list;
 }
 

@@ -34,7 +34,7 @@ Json whole_seconds(std::optional<double> seconds) {
 }
 
 Json temperatures_json(const LinkStatus& status) {
-    if (status.grbl) return nullptr;
+    if (status.dialect == Dialect::grbl) return nullptr;
     const Temperatures& t = status.temperatures;
     return {{"nozzle", rounded(t.nozzle, 1)},
             {"nozzle_target", t.nozzle_target},

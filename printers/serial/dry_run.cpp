@@ -4,6 +4,8 @@
 
 #include "engine/base/error.h"
 #include "printers/serial/grbl_sender.h"
+#include "printers/serial/klipper_message.h"
+#include "printers/serial/klipper_sender.h"
 #include "printers/serial/marlin_sender.h"
 #include "printers/serial/serial_output.h"
 
@@ -14,7 +16,9 @@ namespace {
 class DryRunOutput : public GcodeOutput {
   public:
     DryRunOutput(const LinkSettings& settings, DryRun& report)
-        : grbl_(settings.grbl), maker_(settings.grbl, settings.motion), report_(report) {
+        : is_klipper_(settings.dialect == Dialect::klipper),
+          maker_(settings.dialect, settings.motion),
+          report_(report) {
         SenderSettings sender = settings.sender;
         sender.greeting = 0;
         sender.byte_time = 0;
@@ -25,8 +29,10 @@ class DryRunOutput : public GcodeOutput {
                 log_->add(now_, direction, in_flight, line);
             };
         }
-        if (grbl_) {
+        if (settings.dialect == Dialect::grbl) {
             sender_ = std::make_unique<GrblSender>(sender, std::move(listener));
+        } else if (is_klipper_) {
+            sender_ = std::make_unique<KlipperSender>(sender, std::move(listener));
         } else {
             sender_ = std::make_unique<MarlinSender>(sender, std::move(listener));
         }
@@ -73,7 +79,7 @@ class DryRunOutput : public GcodeOutput {
         while (!sender_->stopped() && !done()) {
             now_ += 0.001;
             sender_->tick(now_);
-            answer();
+            is_klipper_ ? answer_as_klippy() : answer();
         }
         report_.sending_seconds +=
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -96,7 +102,26 @@ class DryRunOutput : public GcodeOutput {
         }
     }
 
-    bool grbl_;
+    /// Answers as a klippy that is ready, has no sensors, and does each script at once.
+    void answer_as_klippy() {
+        while (!sender_->output().empty()) {
+            asked_.feed(sender_->output());
+            sender_->wrote(sender_->output().size());
+            std::string replies;
+            while (const auto request = asked_.next()) {
+                const auto message = parse_klipper_message(*request);
+                if (!message || !message->id) throw FaultError("the dry run sends what is no request");
+                const nlohmann::ordered_json reply = {
+                    {"id", *message->id},
+                    {"result", {{"state", "ready"}, {"objects", nlohmann::ordered_json::array()}}}};
+                (replies += reply.dump()) += klipper_message_end;
+            }
+            sender_->receive(replies, now_);
+        }
+    }
+
+    bool is_klipper_;
+    KlipperFrames asked_;
     std::unique_ptr<LineLog> log_;
     ChunkMaker maker_;
     DryRun& report_;

@@ -79,6 +79,12 @@ std::string_view trim_spaces(std::string_view text) {
     return text;
 }
 
+/// Returns true if a command is named by a word, such as SET_PIN, instead of a letter and a number.
+bool is_named(std::string_view command) {
+    const auto is_name = [](char c) { return ('A' <= upper(c) && upper(c) <= 'Z') || c == '_'; };
+    return command.size() > 1 && is_name(command[0]) && is_name(command[1]);
+}
+
 std::string shown(std::string_view line) {
     std::string text;
     for (const char c : line.substr(0, 60)) text += ' ' <= c && c <= '~' ? c : '?';
@@ -121,7 +127,10 @@ std::string clean_command(std::string_view line, const LineRules& rules) {
     for (const char c : bare.substr(0, 6)) start += upper(c);
     const std::string word = command_word(start);
     std::string command;
-    if (rules.keeps_text && (shows_text(word) || names_file(word))) {
+    if (rules.keeps_names && is_named(bare)) {
+        command = trim_spaces(bare.substr(0, bare.find(';')));
+        for (std::size_t i = 0; i < command.size() && command[i] != ' '; ++i) command[i] = upper(command[i]);
+    } else if (rules.keeps_text && (shows_text(word) || names_file(word))) {
         for (const char c : bare.substr(0, bare.find(';'))) command += ' ' <= c && c <= '~' ? c : '?';
         for (std::size_t i = 0; i < word.size(); ++i) command[i] = upper(command[i]);
         command = trim_spaces(

@@ -12,18 +12,34 @@ namespace lamella {
 constexpr std::size_t longest_marlin_line = 95;
 /// Longest line that GRBL accepts, characters (error:11 beyond).
 constexpr std::size_t longest_grbl_line = 80;
+/// Longest line for Klipper, which has no bound of its own, characters.
+constexpr std::size_t longest_klipper_line = 4096;
 /// Longest command: leaves room for a line number of 8 digits and a checksum of 3.
 constexpr std::size_t longest_command = longest_marlin_line - 14;
+
+/// How a job is sent to a machine, and which lines it takes.
+enum class Dialect : unsigned char {
+    marlin,  ///< numbered lines with checksums: Marlin and its relatives
+    grbl,    ///< plain lines, counted by their characters
+    klipper  ///< scripts over the API socket of klippy
+};
 
 /// What firmware accepts as a line.
 struct LineRules {
     std::size_t longest;        ///< most characters of a command
     bool keeps_text;            ///< commands may carry a text for the display or the name of a file
     std::string_view realtime;  ///< characters that the firmware takes out of the stream and acts on at once
+    bool keeps_names = false;   ///< commands may be words, such as SET_PIN PIN=lamp, with values as written
 };
 constexpr LineRules marlin_lines{longest_command, true, ""};
 /// `!` holds the motion, `~` continues it, `?` asks for the state, wherever they stand.
 constexpr LineRules grbl_lines{longest_grbl_line, false, "!~?"};
+/// Commands whose first word is longer than a letter and a number are kept as they are: their values are
+/// names.
+constexpr LineRules klipper_lines{longest_klipper_line, true, "", true};
+constexpr const LineRules& line_rules(Dialect dialect) {
+    return dialect == Dialect::grbl ? grbl_lines : dialect == Dialect::klipper ? klipper_lines : marlin_lines;
+}
 
 /// Strips a line of a job: removes comments, surplus blanks, line numbers, checksums and trailing zeros, and
 /// converts it to capitals. Returns an empty string if nothing is left to send. Where the rules keep texts,

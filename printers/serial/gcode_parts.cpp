@@ -43,7 +43,7 @@ int send_gcode_file(const std::filesystem::path& path, GcodeOutput& output, bool
     // An FNV-1a hash of the whole file shows whether it is unchanged when a print is resumed.
     std::uint64_t hash = 14695981039346656037ULL;
     std::vector<double> seconds;  // of each part
-    ChunkMaker maker(settings.grbl, settings.motion);
+    ChunkMaker maker(settings.dialect, settings.motion);
     for_each_part(path, [&](const std::string& part) {
         if (cancel != nullptr && cancel->cancelled()) throw Interrupted("interrupted");
         for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;

@@ -31,7 +31,7 @@ enum class StopKind : unsigned char {
     reset,       ///< the printer's board has restarted
     unanswered,  ///< no answers arrive any more
     lost_count,  ///< the printer asks for a line that it cannot need
-    refused,     ///< GRBL has refused a line or raised an alarm
+    refused,     ///< the machine refuses a line, has raised an alarm, or takes no job
     halted       ///< halted on request of the host
 };
 
@@ -119,6 +119,8 @@ class LineSender {
 
     /// Appends a line of the job.
     void push(std::string command) { pending_.push_back(std::move(command)); }
+    /// Tells that a part of the job, such as a layer, ends with the line that was appended last.
+    virtual void end_part() {}
     /// Inserts a line of the host before those of the job. It does not count as a line of the job.
     void interject(std::string command) { urgent_.push_back(std::move(command)); }
     /// Returns the number of lines of the job that are not sent yet.
@@ -127,6 +129,8 @@ class LineSender {
     void hold(bool held) { held_ = held; }
     /// Pauses or continues the motion itself, if the machine can do so.
     virtual void hold_motion(bool /*held*/) {}
+    /// Ends a pause of the machine's own without going on.
+    virtual void forget_pause() {}
     /// Returns the number of lines of the host that are not sent yet.
     std::size_t host_lines() const { return urgent_.size(); }
     void drop_host_lines() { urgent_.clear(); }
@@ -151,6 +155,8 @@ class LineSender {
     virtual void halt(double now) = 0;
     /// Returns true if `halt` takes effect before the lines that are still waiting.
     virtual bool halts_at_once() const = 0;
+    /// Returns true if a print that is cancelled is to be halted, false if it is to be ended cleanly.
+    virtual bool cancel_halts() const { return halts_at_once(); }
     /// Ends a heat-up that the printer waits for, or its wait for a person.
     virtual void end_waiting() = 0;
     /// Returns the request to a person that the printer is waiting for; empty if there is none. Answer it by
@@ -161,6 +167,17 @@ class LineSender {
     virtual LineWait line_wait() const = 0;
     /// Returns true if a pause can still keep a line of the job from being executed.
     virtual bool can_pause() const { return true; }
+    /// Returns why no line of the job is sent any more, although the machine still takes lines of the host;
+    /// empty if the job goes on.
+    const std::optional<std::string>& refused() const { return refused_; }
+    /// Returns the time at which the machine will have done all that it has answered, if it tells this.
+    virtual double dry_at() const { return 0; }
+    /// Returns true if the machine knows the height of its nozzle, so that it need not be told.
+    virtual bool knows_height() const { return false; }
+    /// Returns true if the machine can be told the height of its nozzle.
+    virtual bool takes_height() const { return true; }
+    /// Returns what is known of the port before the printer is, as a clause without a full stop.
+    virtual std::string remark() const { return first_words_.remark(baud()); }
     /// Returns what the port has said before the printer was known.
     const FirstWords& first_words() const { return first_words_; }
     int baud() const;
@@ -185,6 +202,16 @@ class LineSender {
     virtual double next_wake() const = 0;
     /// Resumes the dialogue over a port that is back.
     virtual void take_up_dialogue(double now) = 0;
+    /// Notes that the port is lost.
+    virtual void drop_dialogue() {}
+    /// Takes bytes from the port apart and handles what they say.
+    virtual void read(std::string_view bytes, double now);
+    /// Tells the listener of a line from the printer.
+    void log_received(std::string_view line) const;
+    /// Counts a line that is sent, and tells the listener of it.
+    void log_sent(std::string_view line, double now);
+    /// Appends bytes to the output. They count as sent.
+    void put(std::string_view bytes);
     /// Sends the lines that may be sent now.
     virtual void feed(double now) = 0;
 
@@ -201,6 +228,8 @@ class LineSender {
     bool finishing_ = false;
     std::int64_t answered_job_ = 0;
     std::optional<SenderStop> stop_;
+    std::optional<std::string> refused_;
+    char end_of_line_ = '\n';  // byte that ends what is sent as one
     SenderStatistics statistics_;
     MachineState machine_;
     Temperatures temperatures_;

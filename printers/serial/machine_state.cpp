@@ -184,21 +184,23 @@ std::vector<std::string> MachineState::come_back(double highest) const {
     return lines;
 }
 
-std::vector<std::string> MachineState::switch_off() const {
+std::vector<std::string> MachineState::switch_off(bool motors) const {
     std::vector<std::string> lines;
     for (std::size_t tool = 0; tool < nozzles_.size(); ++tool) {
         if (tool != in_use() && nozzles_[tool] > 0) lines.push_back("M104 T" + std::to_string(tool) + " S0");
     }
-    lines.insert(lines.end(), {"M104 S0", "M140 S0", "M107", "M84"});
+    lines.insert(lines.end(), {"M104 S0", "M140 S0", "M107"});
+    if (motors) lines.emplace_back("M84");
     return lines;
 }
 
-std::vector<std::string> MachineState::take_up(double z, double park_x, double park_y, double highest) const {
+std::vector<std::string> MachineState::take_up(double z, double park_x, double park_y, double highest,
+                                               const std::string& height_line) const {
     const double up = lifted(z, highest);
     std::vector<std::string> lines{"G21", "G90", "M83"};
     if (bed_ > 0) lines.push_back("M140 S" + number(bed_));
     if (tool_ < 0 && nozzle() > 0) lines.push_back("M104 S" + number(nozzle()));
-    lines.push_back("G92 Z" + number(z));
+    if (!height_line.empty()) lines.push_back(height_line);
     lines.push_back("G0 Z" + number(up) + " F600");
     lines.emplace_back("G28 X Y");
     lines.push_back("G0 X" + number(park_x) + " Y" + number(park_y) + " F6000");

@@ -42,11 +42,14 @@ class MachineState {
     /// off the part or back to it.
     std::vector<std::string> leave_from(const MachineState& left, double park_x, double park_y,
                                         double highest) const;
-    /// Returns the commands that switch off the heaters of all tools and the bed, the fan and the motors.
-    std::vector<std::string> switch_off() const;
+    /// Returns the commands that switch off the heaters of all tools and the bed, the fan and, if wanted, the
+    /// motors.
+    std::vector<std::string> switch_off(bool motors = true) const;
     /// Returns the commands that restore this state on a machine that may have been reset, with the part on
-    /// its bed and the nozzle at height `z`. They home X and Y, never Z.
-    std::vector<std::string> take_up(double z, double park_x, double park_y, double highest) const;
+    /// its bed and the nozzle at height `z`. They home X and Y, never Z. `height_line` tells the machine the
+    /// height of its nozzle; empty: it knows it.
+    std::vector<std::string> take_up(double z, double park_x, double park_y, double highest,
+                                     const std::string& height_line) const;
 
   private:
     /// The tool whose nozzle is heated without a T word, counted from 0.

@@ -9,9 +9,9 @@ namespace lamella {
 
 namespace {
 
-std::string clean_line(std::string_view line, bool grbl, std::int32_t number) {
+std::string clean_line(std::string_view line, Dialect dialect, std::int32_t number) {
     try {
-        return clean_command(line, grbl ? grbl_lines : marlin_lines);
+        return clean_command(line, line_rules(dialect));
     } catch (const InputError& error) {
         throw InputError("line " + std::to_string(number) + ": " + error.what());
     }
@@ -29,16 +29,16 @@ CleanText ChunkMaker::clean(std::string_view text) {
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));
-        const std::string command = clean_line(line, grbl_, ++source_);
+        const std::string command = clean_line(line, dialect_, ++source_);
         if (command.empty()) continue;
         (clean.lines += command) += '\n';
         clean.facts.push_back({0, source_});
-        const double time = grbl_ ? modes_.apply(command) : machine_.apply(command);
-        if (!(grbl_ ? modes_.can_be_written() : machine_.can_be_written())) {
+        const double time = is_grbl() ? modes_.apply(command) : machine_.apply(command);
+        if (!(is_grbl() ? modes_.can_be_written() : machine_.can_be_written())) {
             throw InputError("line " + std::to_string(source_) + ": \"" + command +
                              "\" leads beyond 1,000,000,000 mm, mm/min or degrees, where no machine is");
         }
-        grbl_ ? timer_.add(command, modes_) : timer_.add(command, machine_);
+        is_grbl() ? timer_.add(command, modes_) : timer_.add(command, machine_);
         const auto size = static_cast<std::int64_t>(command.size()) + frame;
         ++lines_;
         bytes_ += size;
@@ -58,7 +58,7 @@ CleanText ChunkMaker::clean(std::string_view text) {
 }
 
 void ChunkMaker::restore_machine(const nlohmann::ordered_json& json) {
-    if (grbl_) {
+    if (is_grbl()) {
         modes_ = GrblModes::from_json(json);
     } else {
         machine_ = MachineState::from_json(json);

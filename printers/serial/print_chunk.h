@@ -32,7 +32,8 @@ struct CleanText {
 /// Strips the text of a job, layer by layer, and tracks the state of the machine.
 class ChunkMaker {
   public:
-    explicit ChunkMaker(bool grbl, const MotionLimits& limits = {}) : grbl_(grbl), timer_(limits) {}
+    explicit ChunkMaker(Dialect dialect, const MotionLimits& limits = {})
+        : dialect_(dialect), timer_(limits) {}
 
     /// Returns the lines of a text that are to be sent. Throws InputError, with the line's number in the
     /// job's text, for one that cannot be sent.
@@ -49,12 +50,16 @@ class ChunkMaker {
     /// The state after all lines so far. Only the one of the job's dialect is tracked.
     const MachineState& machine() const { return machine_; }
     const GrblModes& grbl_modes() const { return modes_; }
-    nlohmann::ordered_json machine_to_json() const { return grbl_ ? modes_.to_json() : machine_.to_json(); }
+    nlohmann::ordered_json machine_to_json() const {
+        return is_grbl() ? modes_.to_json() : machine_.to_json();
+    }
     /// Throws nlohmann::json::exception if a field is missing or none of a machine.
     void restore_machine(const nlohmann::ordered_json& json);
 
   private:
-    bool grbl_;
+    bool is_grbl() const { return dialect_ == Dialect::grbl; }
+
+    Dialect dialect_;
     MachineState machine_;
     GrblModes modes_;
     MotionTimer timer_;

@@ -14,12 +14,13 @@
 
 #include "engine/base/error.h"
 #include "printers/serial/grbl_sender.h"
+#include "printers/serial/klipper_sender.h"
 #include "printers/serial/marlin_sender.h"
 
 namespace lamella {
 namespace {
 
-constexpr std::size_t lines_before_sender = 64;
+constexpr std::size_t lines_before_sender = 128;
 constexpr double journal_interval = 2;    // s
 constexpr double cancel_interval = 0.02;  // s between two checks of the cancel token
 
@@ -27,7 +28,7 @@ constexpr double cancel_interval = 0.02;  // s between two checks of the cancel 
 
 PrintLink::PrintLink(LinkSettings settings)
     : settings_(std::move(settings)), wake_(eventfd(0, EFD_NONBLOCK)) {
-    settings_.sender.byte_time = 10.0 / settings_.baud;
+    settings_.sender.byte_time = is_klipper() ? 0 : 10.0 / settings_.baud;
     SenderListener listener;
     if (!settings_.log.empty()) {
         log_ = std::make_unique<LineLog>(settings_.log);
@@ -37,8 +38,10 @@ PrintLink::PrintLink(LinkSettings settings)
     }
     listener.on_action = [this](const std::string& action) { heed(action); };
     listener.on_message = settings_.on_message;
-    if (settings_.grbl) {
+    if (is_grbl()) {
         sender_ = std::make_unique<GrblSender>(settings_.sender, std::move(listener));
+    } else if (is_klipper()) {
+        sender_ = std::make_unique<KlipperSender>(settings_.sender, std::move(listener));
     } else {
         sender_ = std::make_unique<MarlinSender>(settings_.sender, std::move(listener));
     }
@@ -68,7 +71,7 @@ void PrintLink::request(std::atomic<bool>& flag) {
 
 void PrintLink::connect() {
     lasting_name_ = lasting_name(settings_.port);
-    port_ = SerialPort::open(settings_.port, settings_.baud);
+    port_ = open_port(settings_.port);
     if (settings_.reset_board && !port_.reset_board())
         throw InputError("--reset: " + settings_.port + " has no DTR line that could reset a board");
     if (!settings_.journal.empty()) journal_ = std::make_unique<PrintJournal>(settings_.journal);
@@ -191,7 +194,7 @@ void PrintLink::choose(std::size_t button) {
 void PrintLink::take_requests(double now) {
     const bool cancelled = settings_.cancel != nullptr && settings_.cancel->cancelled();
     if (halting_.exchange(false) ||
-        (phase_ == Phase::printing && cancelled && sender_->connected() && sender_->halts_at_once()))
+        (phase_ == Phase::printing && cancelled && sender_->connected() && sender_->cancel_halts()))
         return halt_at_once(now);
     if (phase_ != Phase::printing) return;
     if (cancelled || stopping_) return abort(now);
@@ -213,7 +216,10 @@ void PrintLink::heed(const std::string& action) {
     if (action == "pause") begin_pause(false);
     if (action == "paused") begin_pause(true);
     if (action == "resume" || action == "resumed") end_pause();
-    if (action == "cancel") stopping_ = true;
+    if (action == "cancel") {
+        stopping_ = true;
+        sender_->hold(true);
+    }
     if (action == "disconnect")
         end(std::make_exception_ptr(FaultError("the printer has asked to be disconnected" + where())));
 }
@@ -239,7 +245,7 @@ void PrintLink::end_pause() {
 }
 
 void PrintLink::leave() {
-    if (settings_.grbl || std::exchange(away_, true)) return;
+    if (is_grbl() || std::exchange(away_, true)) return;
     // On its way back the nozzle has not reached the state that it is to return to.
     const bool on_the_way = std::exchange(returning_, false) && sender_->host_lines() > 0;
     const MachineState& here = sender_->machine();
@@ -285,6 +291,7 @@ void PrintLink::take_lines(double now) {
         const std::size_t end = current_.lines.find('\n', current_at_);
         sender_->push(current_.lines.substr(current_at_, end - current_at_));
         current_at_ = end + 1;
+        if (current_at_ >= current_.lines.size()) sender_->end_part();
     }
 }
 
@@ -297,11 +304,12 @@ void PrintLink::watch_queue(double now) {
         const std::lock_guard lock(mutex_);
         if (closing_ || !queue_.empty()) return;
     }
+    if (now < sender_->dry_at()) return;
     if (dry_since_ < 0) {
         dry_since_ = now;
         ++underruns_;
     }
-    if (now - dry_since_ < settings_.park_after || settings_.grbl) return;
+    if (now - dry_since_ < settings_.park_after || is_grbl()) return;
     leave();
     parked_ = true;
 }
@@ -323,6 +331,8 @@ void PrintLink::watch_answers(double now) {
         {
             const std::lock_guard lock(mutex_);
             connected_ = true;
+            status_.knows_height = sender_->knows_height();
+            status_.takes_height = sender_->takes_height();
         }
         note_status(now, true);
         changed_.notify_all();
@@ -332,6 +342,10 @@ void PrintLink::watch_answers(double now) {
         write_bytes(now);
         write_journal(now);
         return end(std::make_exception_ptr(FaultError(sender_->stopped()->why + where())));
+    }
+    if (phase_ == Phase::printing && sender_->refused()) {
+        refusal_ = *sender_->refused() + where();
+        return abort(now);
     }
     if (phase_ == Phase::printing && sender_->finished()) end(nullptr);
 }

@@ -1,4 +1,4 @@
-// PrintLink: a print over a serial port: a thread that owns the port and the sender, and a queue of layers.
+// PrintLink: a print over a port: a thread that owns the port and the sender, and a queue of layers.
 #pragma once
 
 #include <atomic>
@@ -27,7 +27,7 @@ struct LinkSettings {
     std::string port;
     int baud = 250000;
     bool reset_board = false;  ///< reset the board by DTR before anything is sent
-    bool grbl = false;
+    Dialect dialect = Dialect::marlin;
     SenderSettings sender;
     std::string log;                ///< file that logs every line; empty: none
     std::string journal;            ///< path of the journal; empty: none
@@ -75,8 +75,10 @@ struct LinkStatus {
     std::string notice;               ///< what became of the last request, if it was not followed
     bool resumable = false;           ///< the journal holds a state from which this print can be resumed
     int notices = 0;                  ///< number of notices so far
-    bool grbl = false;
+    Dialect dialect{};
     std::size_t bytes_ahead = 0;  ///< most bytes unanswered; 0: one line at a time
+    bool knows_height = false;    ///< the machine knows the height of its nozzle
+    bool takes_height = true;     ///< the machine can be told that height
     bool lost = false;            ///< the port is lost at the moment
     int losses = 0;               ///< times the port was lost
     double lost_seconds = 0;      ///< time without a port
@@ -93,8 +95,8 @@ struct LinkStatus {
     double seconds = 0;  ///< time since the printer was connected
 };
 
-/// A print over a serial port. A thread of its own owns the port. `status` and the requests `pause`,
-/// `resume`, `choose`, `stop` and `halt` may be called from any thread.
+/// A print over a serial port, or over Klipper's socket. A thread of its own owns the port. `status` and the
+/// requests `pause`, `resume`, `choose`, `stop` and `halt` may be called from any thread.
 ///
 ///     LinkSettings settings;
 ///     settings.port = "/dev/ttyACM0";
@@ -130,7 +132,7 @@ class PrintLink {
     /// Ends the print cleanly, after the moves that the printer has already received.
     void stop() { request(stopping_); }
     /// Halts the machine immediately, in the middle of its moves: by M112 if it has an emergency parser, by
-    /// `!` and a reset on GRBL, otherwise by resetting the board over DTR.
+    /// `!` and a reset on GRBL, by Klipper's emergency stop, otherwise by resetting the board over DTR.
     void halt() { request(halting_); }
     LinkStatus status() const;
     /// Stops the print if it is still running, waits for its end and returns why it ended. Null if the print
@@ -140,6 +142,8 @@ class PrintLink {
     std::string end_words();
 
   private:
+    bool is_klipper() const { return settings_.dialect == Dialect::klipper; }
+    bool is_grbl() const { return settings_.dialect == Dialect::grbl; }
     enum class Phase : unsigned char { printing, aborting, switching_off, halting, done };
     void work();
     void round();
@@ -165,6 +169,9 @@ class PrintLink {
     void abort(double now);
     void halt_at_once(double now);
     void go_on_aborting(double now);
+    void switch_off();
+    void end_aborted();
+    MachinePort open_port(const std::string& path) const;
     void end(std::exception_ptr failure);
     void note_status(double now, bool at_once);
     void check();
@@ -176,7 +183,7 @@ class PrintLink {
 
     LinkSettings settings_;
     std::unique_ptr<LineSender> sender_;
-    SerialPort port_;
+    MachinePort port_;
     std::string lasting_name_;
     std::unique_ptr<LineLog> log_;
     std::unique_ptr<PrintJournal> journal_;
@@ -219,6 +226,7 @@ class PrintLink {
     double noted_at_ = -10;
     double connected_at_ = -1;
     std::string abort_words_;
+    std::string refusal_;  // why the job is ended, where nobody has asked for it
 
     // Shared between threads.
     mutable std::mutex mutex_;

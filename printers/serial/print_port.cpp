@@ -12,6 +12,10 @@ constexpr double retry_interval = 0.5;  // s
 
 }  // namespace
 
+MachinePort PrintLink::open_port(const std::string& path) const {
+    return is_klipper() ? MachinePort::open_socket(path) : MachinePort::open_serial(path, settings_.baud);
+}
+
 void PrintLink::read_bytes(double now) {
     if (!port_.is_open()) return reopen(now);
     std::string came;
@@ -42,9 +46,10 @@ void PrintLink::lose_port(double now) {
 
 void PrintLink::reopen(double now) {
     if (phase_ != Phase::printing)
-        return end(
-            std::make_exception_ptr(FaultError("the print was to be stopped, but the port is gone; look "
-                                               "after the machine: its heaters may be on")));
+        return end(std::make_exception_ptr(
+            FaultError((refusal_.empty() ? "" : refusal_ + "; ") +
+                       "the print was to be stopped, but the port is gone; look after the machine: its "
+                       "heaters may be on")));
     if (now < next_try_) return;
     next_try_ = now + retry_interval;
     const auto give_up = [&](const std::string& why) {
@@ -55,7 +60,7 @@ void PrintLink::reopen(double now) {
         return true;
     };
     try {
-        port_ = SerialPort::open(lasting_name_, settings_.baud);
+        port_ = open_port(lasting_name_);
     } catch (const Error& error) {
         give_up(error.what());
         return;
@@ -77,7 +82,7 @@ std::string PrintLink::where() const {
     std::string text = fmt::format("; {} line{} answered", sender_->answered(),
                                    sender_->answered() == 1 ? " was" : "s were");
     if (source_lines_ && source_line_ > 0) text += fmt::format(" (to line {} of the file)", source_line_);
-    if (settings_.grbl) return text;
+    if (is_grbl()) return text;
     return text + ", the nozzle was sent to Z " + format_number(sender_->machine().z(), 3);
 }
 

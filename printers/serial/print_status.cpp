@@ -49,9 +49,10 @@ void PrintLink::measure(double now) {
 }
 
 std::string PrintLink::awaiting() const {
-    const std::string remark = sender_->first_words().remark(settings_.baud);
-    return fmt::format("waiting for the printer at {}, {} baud{}{}", settings_.port, settings_.baud,
-                       remark.empty() ? "" : "; ", remark);
+    const std::string remark = sender_->remark();
+    const std::string speed = is_klipper() ? "" : fmt::format(", {} baud", settings_.baud);
+    return fmt::format("waiting for {} at {}{}{}{}", is_klipper() ? "Klipper" : "the printer", settings_.port,
+                       speed, remark.empty() ? "" : "; ", remark);
 }
 
 void PrintLink::notify(const std::string& text) {
@@ -92,8 +93,10 @@ void PrintLink::note_status(double now, bool at_once) {
     status_.resumable = journal_ && !resume_.is_null() && status_.journal_trouble.empty();
     if (log_) status_.log_trouble = log_->trouble();
     status_.awaiting = connected_ ? std::string() : awaiting();
-    status_.grbl = settings_.grbl;
+    status_.dialect = settings_.dialect;
     status_.bytes_ahead = sender_->bytes_ahead();
+    status_.knows_height = sender_->knows_height();
+    status_.takes_height = sender_->takes_height();
     status_.lost = lost_at_ >= 0;
     status_.losses = losses_;
     status_.lost_seconds = lost_seconds_ + (lost_at_ >= 0 ? now - lost_at_ : 0);

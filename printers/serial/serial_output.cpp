@@ -10,6 +10,7 @@
 #include "engine/base/number_format.h"
 #include "printers/archive/json_number.h"
 #include "printers/archive/output_file.h"
+#include "printers/serial/klipper_socket.h"
 
 namespace lamella {
 namespace {
@@ -20,7 +21,7 @@ class SerialOutput : public GcodeOutput {
         : link_(std::move(link)),
           settings_(settings),
           options_(std::move(options)),
-          maker_(settings.grbl, settings.motion) {}
+          maker_(settings.dialect, settings.motion) {}
 
     int begin(const JobStamp& stamp, bool resume) override {
         link_->set_stamp(lamella::to_json(stamp));
@@ -56,10 +57,14 @@ class SerialOutput : public GcodeOutput {
             maker_.restore_machine(last.at("machine"));
             const double z = options_.z ? *options_.z : record.at("z").get<double>();
             if (next < stamp.range.first || next > stamp.range.last) throw damaged_state();
-            const std::vector<std::string> way = way_back(z);
+            // Only Klipper tells whether it still knows where it is.
+            const bool asks = settings_.dialect == Dialect::klipper;
+            std::vector<std::string> way;
+            if (!asks) way = way_back(z);
             outlook_.layers_before = next - first_;
             link_->expect(outlook_);
             link_->connect();
+            if (asks) way = klipper_way_back(z);
             PrintChunk chunk{"", 0, next, last};
             for (const std::string& line : way) {
                 (chunk.lines += line) += '\n';
@@ -105,8 +110,7 @@ class SerialOutput : public GcodeOutput {
     }
     /// Returns the lines that bring the machine to the start of the first missing layer.
     std::vector<std::string> way_back(double z) const {
-        if (!settings_.grbl)
-            return maker_.machine().take_up(z, settings_.park_x, settings_.park_y, settings_.highest);
+        if (settings_.dialect != Dialect::grbl) return filament_way_back(z, "G92 Z" + format_number(z, 3));
         const GrblModes& modes = maker_.grbl_modes();
         if (!modes.obstacle().empty())
             throw InputError("this job cannot be taken up: " + modes.obstacle() +
@@ -119,6 +123,19 @@ class SerialOutput : public GcodeOutput {
         }
         return modes.take_up();
     }
+    std::vector<std::string> klipper_way_back(double z) const {
+        const LinkStatus status = link_->status();
+        if (status.knows_height) return filament_way_back(z, "");
+        if (status.takes_height)
+            return filament_way_back(z, "SET_KINEMATIC_POSITION Z=" + format_number(z, 3));
+        throw InputError(
+            "--resume: Klipper has forgotten the height of its nozzle and takes none; accepted: [force_move] "
+            "with enable_force_move: True in printer.cfg, then RESTART, or Z homed beside the part");
+    }
+    std::vector<std::string> filament_way_back(double z, const std::string& height_line) const {
+        return maker_.machine().take_up(z, settings_.park_x, settings_.park_y, settings_.highest,
+                                        height_line);
+    }
     void send(std::string_view text, int next, const nlohmann::ordered_json& state) {
         const std::int64_t before = maker_.lines();
         PrintChunk chunk;
@@ -130,7 +147,7 @@ class SerialOutput : public GcodeOutput {
         chunk.layer = next > first_ ? next - 1 : -1;
         if (next >= 0)
             chunk.resume = {{"next", next}, {"state", state}, {"machine", maker_.machine_to_json()}};
-        if (!warned_ && options_.warn) {
+        if (!warned_ && options_.warn && settings_.dialect != Dialect::klipper) {
             const std::string warning = link_warning(maker_.need(), settings_.baud);
             warned_ = !warning.empty();
             if (warned_) options_.warn(warning);
@@ -152,11 +169,43 @@ class SerialOutput : public GcodeOutput {
 
 void suit_printer(LinkSettings& settings, const PrinterProfile& printer) {
     const GcodeProfile& gcode = printer.gcode;
-    settings.grbl = gcode.flavour == Flavour::grbl;
+    if (gcode.flavour == Flavour::grbl) settings.dialect = Dialect::grbl;
     settings.park_y = printer.filament.bed_y;
     settings.highest = printer.filament.bed_z;
     settings.motion.acceleration = settings.motion.travel_acceleration = gcode.acceleration;
     settings.motion.junction_deviation = gcode.junction_deviation;
+}
+
+void choose_dialect(LinkSettings& settings, const std::string& firmware, const PrinterProfile* printer) {
+    const bool socket = is_socket(settings.port);
+    if (socket && !firmware.empty() && firmware != "klipper") {
+        throw InputError("--firmware " + firmware + " conflicts with --port " + settings.port +
+                         ", a socket, which is Klipper's; accepted: --firmware klipper, or a serial port");
+    }
+    if (firmware == "klipper" && !socket && !settings.port.empty()) {
+        throw InputError(
+            "--firmware klipper prints over Klipper's API socket, and " + settings.port +
+            " is none; accepted: --port with a socket, such as ~/printer_data/comms/klippy.sock; "
+            "`lamella ports` lists them");
+    }
+    const bool klipper = socket || firmware == "klipper";
+    const Flavour flavour = printer != nullptr   ? printer->gcode.flavour
+                            : klipper            ? Flavour::klipper
+                            : firmware == "grbl" ? Flavour::grbl
+                                                 : Flavour::marlin;
+    const bool grbl = flavour == Flavour::grbl;
+    if (klipper && flavour != Flavour::klipper) {
+        throw InputError(
+            (socket ? settings.port + ", a socket of Klipper," : "--firmware klipper") +
+            std::string(" conflicts with the printer's flavour; accepted: a printer with Klipper, "
+                        "such as --printer klipper, or --printer-flavour klipper"));
+    }
+    if (!firmware.empty() && grbl != (firmware == "grbl")) {
+        throw InputError("--firmware " + firmware + " conflicts with the printer's flavour; " +
+                         (grbl ? "a laser under grbl does not accept Marlin G-code; accepted: --firmware grbl"
+                               : "accepted: --printer-flavour grbl, to cut layers with a laser"));
+    }
+    settings.dialect = klipper ? Dialect::klipper : grbl ? Dialect::grbl : Dialect::marlin;
 }
 
 std::unique_ptr<GcodeOutput> make_serial_output(std::shared_ptr<PrintLink> link, const LinkSettings& settings,

@@ -23,6 +23,11 @@ struct SerialOutputOptions {
 /// Sets dialect, parking position, height and motion limits of a printer of G-code.
 void suit_printer(LinkSettings& settings, const PrinterProfile& printer);
 
+/// Sets the dialect of a ready file or, with a printer, of its job, by the port: a socket is Klipper's.
+/// `firmware` is marlin, grbl, klipper, or empty for that of the printer or the port. Without a port, as for
+/// a dry run, only a named Klipper is one. Throws InputError where port, firmware and printer do not fit.
+void choose_dialect(LinkSettings& settings, const std::string& firmware, const PrinterProfile* printer);
+
 /// Makes an output that sends a job over a link. A layer is complete when the printer has answered all its
 /// lines. A resumed print continues with the first incomplete layer: the printer is heated, X and Y are
 /// homed, and Z is set from the journal.

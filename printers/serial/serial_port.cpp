@@ -6,6 +6,7 @@
 #include <linux/serial.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
@@ -76,21 +77,24 @@ std::string usb_description(const std::string& name) {
 
 }  // namespace
 
-SerialPort::SerialPort(SerialPort&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+MachinePort::MachinePort(MachinePort&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), claim_(std::exchange(other.claim_, -1)) {}
 
-SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
+MachinePort& MachinePort::operator=(MachinePort&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
+    std::swap(claim_, other.claim_);
     return *this;
 }
 
-SerialPort::~SerialPort() { close(); }
+MachinePort::~MachinePort() { close(); }
 
-void SerialPort::close() {
+void MachinePort::close() {
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+    if (claim_ >= 0) ::close(std::exchange(claim_, -1));
 }
 
-SerialPort SerialPort::open(const std::string& path, int baud) {
-    SerialPort port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+MachinePort MachinePort::open_serial(const std::string& path, int baud) {
+    MachinePort port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!port.is_open()) {
         const int error = errno;
         if (error == ENOENT) throw InputError("there is no port " + path + "; `lamella ports` lists them");
@@ -111,7 +115,7 @@ SerialPort SerialPort::open(const std::string& path, int baud) {
     return port;
 }
 
-PortOutcome SerialPort::read(std::string& bytes) {
+PortOutcome MachinePort::read(std::string& bytes) {
     PortOutcome outcome;
     std::array<char, 4096> buffer{};
     for (;;) {
@@ -127,16 +131,18 @@ PortOutcome SerialPort::read(std::string& bytes) {
     }
 }
 
-PortOutcome SerialPort::write(std::string_view bytes) {
+PortOutcome MachinePort::write(std::string_view bytes) {
     for (;;) {
-        const ssize_t gone = ::write(descriptor_, bytes.data(), bytes.size());
+        // A socket whose other end is gone must not end the process by a signal.
+        const ssize_t gone = claim_ >= 0 ? ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL)
+                                         : ::write(descriptor_, bytes.data(), bytes.size());
         if (gone >= 0) return {static_cast<std::size_t>(gone), false};
         if (errno == EINTR) continue;
         return {0, errno != EAGAIN && errno != EWOULDBLOCK};
     }
 }
 
-bool SerialPort::reset_board() {
+bool MachinePort::reset_board() {
     const int dtr = TIOCM_DTR;
     if (ioctl(descriptor_, TIOCMBIC, &dtr) != 0) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

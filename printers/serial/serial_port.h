@@ -1,4 +1,4 @@
-// SerialPort: a Linux tty opened for a printer.
+// MachinePort: an open connection to a machine; serial lines of this computer.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,21 @@ struct PortOutcome {
     bool lost = false;  ///< the device is gone
 };
 
-/// A tty in raw mode, exclusive and non-blocking. Closing does not touch DTR, so that the board is not reset.
-class SerialPort {
+/// An open connection to a machine, exclusive and non-blocking. Closing a serial line does not touch DTR, so
+/// that the board is not reset.
+class MachinePort {
   public:
-    SerialPort() = default;
-    SerialPort(SerialPort&& other) noexcept;
-    SerialPort& operator=(SerialPort&& other) noexcept;
-    ~SerialPort();
+    MachinePort() = default;
+    MachinePort(MachinePort&& other) noexcept;
+    MachinePort& operator=(MachinePort&& other) noexcept;
+    ~MachinePort();
 
-    /// Throws InputError if the path is not a serial port or is in use, FaultError for any other failure.
-    static SerialPort open(const std::string& path, int baud);
+    /// Opens a tty in raw mode. Throws InputError if the path is not a serial line or is in use, FaultError
+    /// for any other failure.
+    static MachinePort open_serial(const std::string& path, int baud);
+    /// Connects to the API socket of klippy. Throws InputError if the path is no socket, if nobody listens
+    /// there, if this user may not, or if another print uses it, FaultError for any other failure.
+    static MachinePort open_socket(const std::string& path);
 
     int descriptor() const { return descriptor_; }
     bool is_open() const { return descriptor_ >= 0; }
@@ -36,8 +41,9 @@ class SerialPort {
     void close();
 
   private:
-    explicit SerialPort(int descriptor) : descriptor_(descriptor) {}
+    explicit MachinePort(int descriptor, int claim = -1) : descriptor_(descriptor), claim_(claim) {}
     int descriptor_ = -1;
+    int claim_ = -1;  // of a socket: its name tells other prints that the machine is in use
 };
 
 /// Returns true if a path leads to a serial line or a pseudo-terminal below /dev. Opens nothing, because some

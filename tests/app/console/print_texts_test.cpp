@@ -91,13 +91,14 @@ TEST_CASE("a ready file shows its parts and its time left") {
 
 TEST_CASE("a laser has no nozzle, no bed, and is not unknown") {
     LinkStatus status = in_mid_print();
-    status.grbl = status.emergency_parser = true;
+    status.dialect = Dialect::grbl;
+    status.emergency_parser = true;
     status.bytes_ahead = 127;
     for (const char* word : {"nozzle", "bed", "Z "}) CHECK(!has(status_text(status, 80), word));
     CHECK(greeting_text(status, false) == "printer: GRBL, up to 127 bytes ahead; Ctrl-C stops it at once");
     status.firmware = "Grbl 1.1h";
     CHECK(has(greeting_text(status, true), "printer: Grbl 1.1h, up to 127 bytes ahead; "));
-    status.grbl = false;
+    status.dialect = Dialect::marlin;
     status.firmware.clear();
     status.bytes_ahead = 0;
     CHECK(has(greeting_text(status, true), "printer: unknown firmware, one line at a time; "));

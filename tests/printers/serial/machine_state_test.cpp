@@ -48,7 +48,7 @@ TEST_CASE("a machine that was switched off gets its tools back", "[machine_state
     const MachineState state = printing_with_tool(tool);
     const MachineState again = MachineState::from_json(state.to_json());
     CHECK(again.to_json() == state.to_json());
-    const MachineState restored = after(again.take_up(1.2, 0, 200, 250));
+    const MachineState restored = after(again.take_up(1.2, 0, 200, 250, "G92 Z1.2"));
     CHECK(restored.nozzle() == state.nozzle());
     CHECK(restored.to_json().at("tool") == state.to_json().at("tool"));
     if (tool != "M117 no tool") CHECK(restored.to_json().at("nozzles") == state.to_json().at("nozzles"));

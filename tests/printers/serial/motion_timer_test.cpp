@@ -15,16 +15,17 @@ using namespace lamella;
 
 namespace {
 
-std::vector<double> times(const std::string& text, bool grbl = false, MotionLimits limits = {}) {
-    ChunkMaker maker(grbl, limits);
+std::vector<double> times(const std::string& text, Dialect dialect = Dialect::marlin,
+                          MotionLimits limits = {}) {
+    ChunkMaker maker(dialect, limits);
     std::vector<double> seconds;
     for (const LineFacts& line : maker.clean(text).facts)
         seconds.push_back(static_cast<double>(line.seconds));
     return seconds;
 }
 
-double total(const std::string& text, bool grbl = false) {
-    const auto seconds = times(text, grbl);
+double total(const std::string& text, Dialect dialect = Dialect::marlin) {
+    const auto seconds = times(text, dialect);
     return std::accumulate(seconds.begin(), seconds.end(), 0.0);
 }
 
@@ -36,7 +37,8 @@ TEST_CASE("a move from standstill to standstill takes its way at speed and one r
     CHECK(times("G90\nG1 X100 F6000\n")[1] == Approx(1.1));
     // 0.4 mm never reach it: 2 sqrt(s / a).
     CHECK(times("G1 X0.4 F6000\n")[0] == Approx(2 * std::sqrt(0.4 / 1000)));
-    CHECK(times("G1 X0.4 F6000\n", false, {4000, 4000, 0.013, 50})[0] == Approx(2 * std::sqrt(0.4 / 4000)));
+    CHECK(times("G1 X0.4 F6000\n", Dialect::marlin, {4000, 4000, 0.013, 50})[0] ==
+          Approx(2 * std::sqrt(0.4 / 4000)));
 }
 
 TEST_CASE("a straight line in pieces takes as long as in one, and a corner costs time") {
@@ -53,7 +55,8 @@ TEST_CASE("a circle takes its circumference") {
     // 20 mm of radius at 20 mm/s: 2 pi s and a ramp of 20 ms.
     CHECK(total("G1 X20 F1200\nG2 X20 Y0 I-20 J0\n") - total("G1 X20 F1200\n") ==
           Approx(2 * std::numbers::pi).epsilon(0.01));
-    CHECK(total("G21\nG90\nG0X20\nG3X20Y0I-20F1200\n", true) - total("G21\nG90\nG0X20\n", true) ==
+    CHECK(total("G21\nG90\nG0X20\nG3X20Y0I-20F1200\n", Dialect::grbl) -
+              total("G21\nG90\nG0X20\n", Dialect::grbl) ==
           Approx(2 * std::numbers::pi).epsilon(0.01));
     // Half a circle by its radius, either way round, and in steps of a quarter.
     for (const char* word : {"G2", "G3"}) {
@@ -65,7 +68,7 @@ TEST_CASE("a circle takes its circumference") {
 TEST_CASE("heating, homing and waits take no time that could be told, dwells take theirs") {
     CHECK(total("M140 S60\nM104 S210\nG28\nG29\nM190 S60\nM109 S210\nM0\nM600\nM400\nM106 S255\n") == 0);
     CHECK(times("G4 S2\nG4 P500\n") == std::vector<double>{2, 0.5});
-    CHECK(times("G4 P1.5\nM0\n$H\n", true) == std::vector<double>{1.5, 0, 0});
+    CHECK(times("G4 P1.5\nM0\n$H\n", Dialect::grbl) == std::vector<double>{1.5, 0, 0});
     // The nozzle stands while it is heated.
     CHECK(total("G1 X50 F6000\nM109 S210\nG1 X100\n") == Approx(1.2));
     CHECK(total("G1 X50 F6000\nM106 S9\nG1 X100\n") == Approx(1.1));
@@ -84,16 +87,16 @@ TEST_CASE("a filament that is drawn back, a lift and a move into nowhere are tim
 }
 
 TEST_CASE("GRBL: lines without a G word go on, fast moves take the rapid speed, inches are inches") {
-    CHECK(total("G21G90G1F600\nX10\nX20\n", true) == Approx(2.01));
-    CHECK(total("G0X50\n", true) == Approx(1.05));
-    CHECK(total("G20G91G1F60\nX1\n", true) == Approx(1 + 0.0254));
+    CHECK(total("G21G90G1F600\nX10\nX20\n", Dialect::grbl) == Approx(2.01));
+    CHECK(total("G0X50\n", Dialect::grbl) == Approx(1.05));
+    CHECK(total("G20G91G1F60\nX1\n", Dialect::grbl) == Approx(1 + 0.0254));
 }
 
 TEST_CASE("a line that cannot be sent is told by its number in the whole text") {
-    ChunkMaker maker(false);
+    ChunkMaker maker(Dialect::marlin);
     maker.clean("; comment\nG28\n\nG1 X1\n");
     CHECK_THROWS_WITH(maker.clean("G1 X2\n@pause\n"), Catch::Contains("line 6: \"@pause\""));
-    ChunkMaker skipping(true);
+    ChunkMaker skipping(Dialect::grbl);
     skipping.skip("; comment\nG28\n\nG1 X1\n");
     const CleanText clean = skipping.clean(";\nG1 X2\n");
     REQUIRE(clean.facts.size() == 1);
@@ -103,8 +106,8 @@ TEST_CASE("a line that cannot be sent is told by its number in the whole text") 
 }
 
 TEST_CASE("a move beyond every machine is refused with its line") {
-    for (const bool grbl : {false, true}) {
-        ChunkMaker maker(grbl);
+    for (const Dialect dialect : {Dialect::marlin, Dialect::grbl}) {
+        ChunkMaker maker(dialect);
         CHECK_THROWS_WITH(maker.clean("G1 X1 F600\nG1 X1000000000000\n"),
                           Catch::Contains("line 2: ") && Catch::Contains("where no machine is"));
     }

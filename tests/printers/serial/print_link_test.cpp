@@ -180,20 +180,20 @@ TEST_CASE("a journal that cannot be written is told while the print goes on") {
 
 TEST_CASE("a port belongs to one program, and closing it does not hang up") {
     PtyMachine machine({});
-    SerialPort port = SerialPort::open(machine.path(), 250000);
-    CHECK_THROWS_AS(SerialPort::open(machine.path(), 250000), InputError);
+    MachinePort port = MachinePort::open_serial(machine.path(), 250000);
+    CHECK_THROWS_AS(MachinePort::open_serial(machine.path(), 250000), InputError);
     termios mode{};
     REQUIRE(tcgetattr(port.descriptor(), &mode) == 0);
     CHECK((mode.c_cflag & HUPCL) == 0);
     CHECK((mode.c_lflag & (ICANON | ECHO)) == 0);
     port.close();
-    CHECK_NOTHROW(SerialPort::open(machine.path(), 115200));
+    CHECK_NOTHROW(MachinePort::open_serial(machine.path(), 115200));
 }
 
 TEST_CASE("GRBL: a pause of the job is told and ended, a stop holds before it resets") {
     PtyGrbl machine({}, 5);
     LinkSettings settings = settings_of(machine.path());
-    settings.grbl = true;
+    settings.dialect = Dialect::grbl;
     PrintLink link(settings);
     link.connect();
     std::vector<std::string> lines{"M4 S0"};
@@ -257,7 +257,7 @@ TEST_CASE("a link that is too slow for a job is told beforehand") {
 }
 
 TEST_CASE("the densest stretch of a job tells what the link has to carry") {
-    ChunkMaker maker(false);
+    ChunkMaker maker(Dialect::marlin);
     std::string text = "G28\nG90\nM83\nG1 X0 Y0 F6000\n";
     for (int i = 1; i <= 100; ++i) text += "G1 X" + std::to_string(i) + " E1\n";           // 10 ms each
     for (int i = 1; i <= 10; ++i) text += "G1 X" + std::to_string(i % 2 * 100) + " E1\n";  // 1 s each

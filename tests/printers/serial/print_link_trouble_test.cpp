@@ -208,7 +208,7 @@ TEST_CASE("time left is of motion: heating adds nothing to what was printed") {
     PrintLink link(settings_of(machine.path()));
     link.expect({2, 0, {}, {}, false});
     link.connect();
-    ChunkMaker maker(false);
+    ChunkMaker maker(Dialect::marlin);
     const auto submit = [&](const std::vector<std::string>& lines, int index) {
         PrintChunk chunk = chunk_of(lines, index);
         chunk.facts = maker.clean(chunk.lines).facts;
