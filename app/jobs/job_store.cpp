@@ -20,6 +20,11 @@ void check_is_searched(const Recipe& recipe) {
 
 }  // namespace
 
+void JobStore::Build::end_work() {
+    work->cancel();
+    layer->cancel();
+}
+
 std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::int64_t sequence) {
     constexpr std::size_t most_sessions = 64;
     const std::lock_guard lock(mutex_);
@@ -33,6 +38,7 @@ std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::in
     build.sequence = sequence;
     build.cancel = std::make_shared<CancelToken>();
     if (!build.work) build.work = std::make_shared<CancelToken>();
+    if (!build.layer) build.layer = std::make_shared<CancelToken>();
     return build.cancel;
 }
 
@@ -41,8 +47,9 @@ void JobStore::end_work(const std::string& session, std::int64_t sequence) {
     const std::lock_guard lock(mutex_);
     const auto found = builds_.find(session);
     if (found == builds_.end() || found->second.sequence != sequence) return;
-    found->second.work->cancel();
+    found->second.end_work();
     found->second.work = std::make_shared<CancelToken>();
+    found->second.layer = std::make_shared<CancelToken>();
 }
 
 void JobStore::end_session(const std::string& session) {
@@ -50,7 +57,7 @@ void JobStore::end_session(const std::string& session) {
     const auto found = builds_.find(session);
     if (found == builds_.end()) return;
     found->second.cancel->cancel();
-    found->second.work->cancel();
+    found->second.end_work();
     builds_.erase(found);
 }
 
@@ -58,6 +65,16 @@ std::shared_ptr<CancelToken> JobStore::work_of(const std::string& session) {
     const std::lock_guard lock(mutex_);
     const auto found = builds_.find(session);
     return found == builds_.end() ? nullptr : found->second.work;
+}
+
+std::shared_ptr<CancelToken> JobStore::begin_layer(const std::string& session) {
+    const std::lock_guard lock(mutex_);
+    const auto found = builds_.find(session);
+    if (found == builds_.end()) return nullptr;
+    Build& build = found->second;
+    build.layer->cancel();
+    build.layer = std::make_shared<CancelToken>();
+    return build.layer;
 }
 
 std::shared_ptr<const ServedJob> JobStore::held(const std::string& id) {
@@ -109,9 +126,9 @@ void JobStore::forget(const std::string& id) {
 
 void JobStore::cancel_all() {
     const std::lock_guard lock(mutex_);
-    for (const auto& [session, build] : builds_) {
+    for (auto& [session, build] : builds_) {
         build.cancel->cancel();
-        build.work->cancel();
+        build.end_work();
     }
 }
 

@@ -29,6 +29,8 @@ class JobStore {
     /// Returns what tells slow work for a session that a newer recipe of the session has come; null for a
     /// session that has built nothing.
     std::shared_ptr<CancelToken> work_of(const std::string& session);
+    /// Ends what is computed for the layer that the session looked at before; returns the same for the next.
+    std::shared_ptr<CancelToken> begin_layer(const std::string& session);
     /// Throws HttpError 404 for a job that is not held.
     std::shared_ptr<const ServedJob> find(const std::string& id);
     void forget(const std::string& id);
@@ -39,7 +41,10 @@ class JobStore {
     struct Build {
         std::int64_t sequence = 0;
         std::shared_ptr<CancelToken> cancel;
-        std::shared_ptr<CancelToken> work;  ///< for those who look at the job
+        std::shared_ptr<CancelToken> work;   ///< for those who look at the job
+        std::shared_ptr<CancelToken> layer;  ///< for those who look at its layer
+
+        void end_work();
     };
     std::shared_ptr<CancelToken> begin(const std::string& session, std::int64_t sequence);
     void end_work(const std::string& session, std::int64_t sequence);

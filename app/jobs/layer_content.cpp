@@ -15,10 +15,7 @@
 #include "engine/base/parallel.h"
 #include "engine/contours/coverage.h"
 #include "engine/field/slice_context.h"
-#include "printers/gcode/gcode_roles.h"
-#include "printers/gcode/layer_beads.h"
 #include "printers/masks/png_writer.h"
-#include "printers/registry.h"
 
 namespace lamella {
 
@@ -116,17 +113,6 @@ double area_of(const SliceField* slice, const RowBand& page) {
            std::abs(page.line_pitch());
 }
 
-Json path_of(const Bead& bead, int tool, const PrinterProfile& printer, bool is_first) {
-    Json points = Json::array();
-    for (const dvec2& p : bead.points) {
-        points.push_back(std::round(p.x * 1e4) / 1e4);
-        points.push_back(std::round(p.y * 1e4) / 1e4);
-    }
-    return {{"role", role_name(bead)}, {"tool", std::max(tool, 0)},
-            {"width", bead.width},     {"speed", role_speed(printer, bead, is_first)},
-            {"closed", bead.closed},   {"points", std::move(points)}};
-}
-
 }  // namespace
 
 std::string layer_picture(const ServedJob& job, int layer, const LayerWindow& window, bool in_colours) {
@@ -192,21 +178,6 @@ Json layer_contours(const ServedJob& job, int layer, double tolerance, bool of_s
         list.push_back({{"parent", contour.parent}, {"points", std::move(points)}});
     }
     return {{"contours", std::move(list)}, {"area", area}, {"z", cut.z()}};
-}
-
-Json layer_paths(const ServedJob& job, int layer) {
-    const PrinterProfile& printer = job.recipe.printer;
-    if (find_backend(printer.backend).content != LayerContent::beads)
-        throw HttpError(400, printer.name + " lays no beads; accepted: machines for filament");
-    const Layer cut = layer_of(job, layer);
-    const LayerBeads beads(job.job(), printer);
-    Json paths = Json::array();
-    for (const ToolBeads& tool : beads.plan(cut, ObjectLabels()).beads) {
-        if (tool.when == LaidWhen::tool_changed) continue;  // depends on the layers before
-        for (const Bead& bead : tool.paths.beads)
-            paths.push_back(path_of(bead, tool.tool, printer, cut.level() == 0));
-    }
-    return {{"paths", std::move(paths)}, {"z", cut.z()}};
 }
 
 Json area_curve(const ServedJob& job, int values, const PassControl& control) {

@@ -1,6 +1,7 @@
 // ServerState: what the routes of a server share.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -58,9 +59,12 @@ struct ServerState {
     std::set<std::filesystem::path> own_recipes;  ///< which may be written again
 };
 
-/// Control of slow work that a request asks for: a newer recipe of its session ends it.
+/// Control of slow work that a request asks for: a newer recipe of its session ends it. Without a session
+/// nothing does.
 struct SessionWork {
-    SessionWork(ServerState& state, const HttpRequest& request);
+    /// What else ends the work: nothing, or a request of the session for the same of another layer.
+    enum class Until : std::uint8_t { next_job, next_layer };
+    SessionWork(ServerState& state, const HttpRequest& request, Until until = Until::next_job);
 
     std::shared_ptr<CancelToken> cancel;  ///< null without a session
     PassControl control;

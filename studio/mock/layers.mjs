@@ -125,7 +125,12 @@ export function paths(job, layer) {
             }
         }
     }
-    return { paths: list, z: plane(job, layer) };
+    const travels = list.slice(1).map(({ points }, i) => {
+        const before = list[i];
+        const from = before.closed ? before.points.slice(0, 2) : before.points.slice(-2);
+        return { after: i + 1, speed: 150, retracts: i % 4 === 0, points: [...from, ...points.slice(0, 2)] };
+    });
+    return { paths: list, travels, seconds: 0.2 * list.length, z: plane(job, layer) };
 }
 
 export function curve(job, values) {

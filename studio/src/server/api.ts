@@ -80,7 +80,7 @@ export const get_contours = (job: Job, layer: number, what: "part" | "supports",
     get_json<Contours>(of_job(job, `layers/${layer}/contours?tolerance=0.02&what=${what}`), { signal });
 
 export const get_paths = (job: Job, layer: number, signal: Signal) =>
-    get_json<Paths>(of_job(job, `layers/${layer}/paths`), { signal });
+    get_json<Paths>(of_job(job, `layers/${layer}/paths?session=${session}`), { signal });
 
 export const get_curve = (job: Job, signal: Signal) =>
     get_json<Curve>(of_job(job, `curve?values=400&session=${session}`), { signal });

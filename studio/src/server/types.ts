@@ -124,15 +124,28 @@ export interface Contours {
 export interface Path {
     role: string;
     tool: number;
+    /** The greatest of the path, mm and mm/s. */
     width: number;
     speed: number;
     closed: boolean;
+    points: number[];
+    /** Of each segment, where they vary. */
+    widths?: number[];
+    speeds?: number[];
+}
+
+export interface Travel {
+    /** Number of paths that come before it. */
+    after: number;
+    speed: number;
+    retracts: boolean;
     points: number[];
 }
 
 export interface Paths {
     paths: Path[];
-    seconds?: number;
+    travels: Travel[];
+    seconds: number;
 }
 
 export interface Curve {

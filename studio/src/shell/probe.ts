@@ -1,6 +1,7 @@
 // window.__studio: what tests and the curious may read of the page.
 import { faults } from "../check/faults";
-import { lines, picture } from "../layers/picture";
+import { path_look } from "../layers/path_look";
+import { lines, picture } from "../layers/shown_layer";
 import { messages, print } from "../print/print";
 import { away } from "../server/events";
 import { building, job, layer, mistakes, tab, text } from "../state/store";
@@ -43,6 +44,7 @@ export const probe: Probe = {
             searched: searching.value?.analysis ?? null,
             design: shown_design.value,
             paint: shown_scale.value,
+            path_look: path_look.value,
         };
     },
 };
