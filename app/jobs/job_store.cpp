@@ -22,7 +22,9 @@ void check_is_searched(const Recipe& recipe) {
 
 void JobStore::Build::end_work() {
     work->cancel();
-    layer->cancel();
+    work = std::make_shared<CancelToken>();
+    for (const auto& [view, cancel] : views) cancel->cancel();
+    views.clear();
 }
 
 std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::int64_t sequence) {
@@ -38,7 +40,6 @@ std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::in
     build.sequence = sequence;
     build.cancel = std::make_shared<CancelToken>();
     if (!build.work) build.work = std::make_shared<CancelToken>();
-    if (!build.layer) build.layer = std::make_shared<CancelToken>();
     return build.cancel;
 }
 
@@ -48,8 +49,6 @@ void JobStore::end_work(const std::string& session, std::int64_t sequence) {
     const auto found = builds_.find(session);
     if (found == builds_.end() || found->second.sequence != sequence) return;
     found->second.end_work();
-    found->second.work = std::make_shared<CancelToken>();
-    found->second.layer = std::make_shared<CancelToken>();
 }
 
 void JobStore::end_session(const std::string& session) {
@@ -67,14 +66,14 @@ std::shared_ptr<CancelToken> JobStore::work_of(const std::string& session) {
     return found == builds_.end() ? nullptr : found->second.work;
 }
 
-std::shared_ptr<CancelToken> JobStore::begin_layer(const std::string& session) {
+std::shared_ptr<CancelToken> JobStore::begin_view(const std::string& session, View view) {
     const std::lock_guard lock(mutex_);
     const auto found = builds_.find(session);
     if (found == builds_.end()) return nullptr;
-    Build& build = found->second;
-    build.layer->cancel();
-    build.layer = std::make_shared<CancelToken>();
-    return build.layer;
+    std::shared_ptr<CancelToken>& cancel = found->second.views[view];
+    if (cancel) cancel->cancel();
+    cancel = std::make_shared<CancelToken>();
+    return cancel;
 }
 
 std::shared_ptr<const ServedJob> JobStore::held(const std::string& id) {

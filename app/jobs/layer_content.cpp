@@ -26,19 +26,6 @@ using Json = nlohmann::ordered_json;
 using Color = std::array<double, 3>;
 constexpr Color ground{16, 20, 24}, part_color{223, 232, 242}, support_color{89, 143, 204};
 
-/// Returns the rows of square pixels that cover a rectangle, the first at its largest y.
-RowBand page_of(const Rect& rect, double pixel, int sub) {
-    RowBand band;
-    band.along_origin = rect.lo.x;
-    band.along_pitch = pixel;
-    band.across_origin = rect.hi.y;
-    band.across_pitch = -pixel;
-    band.sub = sub;
-    band.hi = std::max(1, static_cast<int>(std::lround(rect.size().x / pixel)));
-    band.count = std::max(1, static_cast<int>(std::lround(rect.size().y / pixel)));
-    return band;
-}
-
 Layer layer_of(const ServedJob& job, int layer) { return Layer(job.job(), layer); }
 
 template <typename T>
@@ -103,17 +90,19 @@ const SliceField* slice_of(const Layer& layer, bool of_supports) {
     return of_supports ? layer.supports() : &layer.part();
 }
 
-/// Returns the area that a slice covers of a page, mm^2.
-double area_of(const SliceField* slice, const RowBand& page) {
-    if (slice == nullptr) return 0;
-    Scratch scratch;
-    RunRows rows;
-    slice->runs(page, scratch, rows);
-    return static_cast<double>(rows.total_length()) / run_unit * page.along_pitch *
-           std::abs(page.line_pitch());
-}
-
 }  // namespace
+
+RowBand page_of(const Rect& rect, double pixel, int sub) {
+    RowBand band;
+    band.along_origin = rect.lo.x;
+    band.along_pitch = pixel;
+    band.across_origin = rect.hi.y;
+    band.across_pitch = -pixel;
+    band.sub = sub;
+    band.hi = std::max(1, static_cast<int>(std::lround(rect.size().x / pixel)));
+    band.count = std::max(1, static_cast<int>(std::lround(rect.size().y / pixel)));
+    return band;
+}
 
 std::string layer_picture(const ServedJob& job, int layer, const LayerWindow& window, bool in_colours) {
     constexpr double most_pixels = 1 << 26;
@@ -178,26 +167,6 @@ Json layer_contours(const ServedJob& job, int layer, double tolerance, bool of_s
         list.push_back({{"parent", contour.parent}, {"points", std::move(points)}});
     }
     return {{"contours", std::move(list)}, {"area", area}, {"z", cut.z()}};
-}
-
-Json area_curve(const ServedJob& job, int values, const PassControl& control) {
-    const int layers = job.job().layers.count();
-    const int each = std::max(1, (layers + values - 1) / values);
-    const int count = (layers + each - 1) / each;
-    constexpr int rows_across = 128;
-    const Rect rect = job.job().bounds.rect();
-    const RowBand page = page_of(rect, std::max(rect.size().x, rect.size().y) / rows_across, 1);
-    std::vector<double> part(static_cast<std::size_t>(count)), supports(part.size());
-    ThreadArena arena(control.threads);
-    arena.execute([&] {
-        parallel_for(part.size(), [&](std::size_t i) {
-            stop_if_cancelled(control.cancel);
-            const Layer cut = layer_of(job, std::min(static_cast<int>(i) * each + each / 2, layers - 1));
-            part[i] = area_of(&cut.part(), page);
-            supports[i] = area_of(cut.supports(), page);
-        });
-    });
-    return {{"layers_a_value", each}, {"area_mm2", part}, {"support_area_mm2", supports}};
 }
 
 RowBand voxel_page(const VoxelGrid& grid) {

@@ -97,7 +97,10 @@ class Description {
     }
 
     Json json(double z) {
-        return {{"paths", std::move(paths_)}, {"travels", std::move(travels_)}, {"seconds", brief(seconds_)}, {"z", z}};
+        return {{"paths", std::move(paths_)},
+                {"travels", std::move(travels_)},
+                {"seconds", brief(seconds_)},
+                {"z", z}};
     }
 
   private:
@@ -150,7 +153,8 @@ class Description {
 };
 
 /// Returns the way from the end of some beads to the first of the next.
-std::vector<GcodeMove> way_between(const LaidBeads& from, dvec2 to, double top, const PrinterProfile& profile) {
+std::vector<GcodeMove> way_between(const LaidBeads& from, dvec2 to, double top,
+                                   const PrinterProfile& profile) {
     GcodeMoves moves(profile, from.last, top);
     leave_beads(moves, from.trail, travel_height(profile, top, glm::distance(from.last, to)), to);
     reach_beads(moves, top);
@@ -160,9 +164,13 @@ std::vector<GcodeMove> way_between(const LaidBeads& from, dvec2 to, double top, 
 
 }  // namespace
 
+bool lays_beads(const PrinterProfile& printer) {
+    return makes_beads(printer) && printer.gcode.flavour != Flavour::grbl;
+}
+
 Json layer_paths(const ServedJob& job, int layer, const CancelToken* cancel) {
     const PrinterProfile& printer = job.recipe.printer;
-    if (find_backend(printer.backend).content != LayerContent::beads)
+    if (!lays_beads(printer))
         throw HttpError(400, printer.name + " lays no beads; accepted: machines for filament");
     const Layer cut(job.job(), layer, cancel);
     const LayerPaths planned = LayerBeads(job.job(), printer).plan(cut, ObjectLabels());
@@ -178,8 +186,10 @@ Json layer_paths(const ServedJob& job, int layer, const CancelToken* cancel) {
         if (in_use == ToolBeads::any) in_use = tool;
         if (!laid.takes(tool, next.beads->when, in_use)) continue;
         if (tool != ToolBeads::any) in_use = tool;
-        if (before == nullptr) description.begin_at(next.first);
-        else description.add(way_between(*before, next.first, cut.top(), printer), {}, 0);
+        if (before == nullptr)
+            description.begin_at(next.first);
+        else
+            description.add(way_between(*before, next.first, cut.top(), printer), {}, 0);
         description.add(next.moves, next.beads->paths.beads, std::max(in_use, 0));
         before = &next;
     }

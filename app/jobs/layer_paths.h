@@ -7,6 +7,9 @@
 
 namespace lamella {
 
+/// Whether a machine lays beads of filament; a laser under GRBL does not.
+bool lays_beads(const PrinterProfile& printer);
+
 /// Returns what a machine that lays beads does in a layer, in the order of printing; mm, mm/s, s:
 ///
 ///     {"paths": [{"role", "tool", "width", "speed", "closed", "points": [x, y, ...], "widths", "speeds"}],

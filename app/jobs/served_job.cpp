@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "app/jobs/part_structure.h"
 #include "app/jobs/recipe_mistakes.h"
 #include "printers/common/layer_heights.h"
 #include "printers/process_limits.h"
@@ -177,6 +178,7 @@ nlohmann::ordered_json ServedJob::facts() const {
             {"supports", job().supports != nullptr},
             {"parts", parts},
             {"modulus", built.modulus ? modulus_json(*built.modulus) : Json(nullptr)},
+            {"structure", structure_parts(*this)},
             {"notes", notes},
             {"display", display}};
 }

@@ -4,8 +4,10 @@
 #include <map>
 
 #include "app/jobs/layer_content.h"
+#include "app/jobs/layer_curve.h"
 #include "app/jobs/layer_paths.h"
 #include "app/jobs/part_modulus.h"
+#include "app/jobs/part_structure.h"
 #include "app/reports/modulus_paint.h"
 #include "app/server/server_state.h"
 #include "printers/common/thumbnail.h"
@@ -71,6 +73,12 @@ HttpReply runs(const Asked& asked, const HttpRequest& request, const PassControl
     return {"application/octet-stream", layer_runs(*asked.job, asked.layer, band, of_supports(request))};
 }
 
+/// A curve over the layers with as many values as the request asks for.
+template <nlohmann::ordered_json (*figures)(const ServedJob&, int, const PassControl&)>
+HttpReply curve(const Asked& asked, const HttpRequest& request, const PassControl& control) {
+    return figures(*asked.job, request.integer("values", 400, 2, 4096), control);
+}
+
 HttpReply frame(const Asked& asked, const HttpRequest& request, const PassControl& control) {
     PreviewOptions options;
     options.width = options.height = request.integer("width", 512, 16, 2048);
@@ -94,12 +102,12 @@ HttpReply frame(const Asked& asked, const HttpRequest& request, const PassContro
 
 void add_layer_routes(ServerState& state) {
     using Content = std::function<HttpReply(const Asked&, const HttpRequest&, const PassControl&)>;
-    using Until = SessionWork::Until;
+    using View = JobStore::View;
     const auto add = [&state](const std::string& pattern, const Content& content,
-                              Until until = Until::next_job) {
-        const auto handle = [&state, content, until](const HttpRequest& request) {
+                              std::optional<View> view = {}) {
+        const auto handle = [&state, content, view](const HttpRequest& request) {
             const Asked found = asked(state, request);
-            const SessionWork work(state, request, until);  // before the turn: the work before it gives it up
+            const SessionWork work(state, request, view);  // before the turn: the work before it gives it up
             const ComputeTurn turn(state.turns);
             HttpReply reply = content(found, request, work.control);
             // Of the recipe's text, as machines decide more than the layers' identity.
@@ -121,15 +129,18 @@ void add_layer_routes(ServerState& state) {
         [](const Asked& a, const HttpRequest&, const PassControl& control) -> HttpReply {
             return layer_paths(*a.job, a.layer, control.cancel);
         },
-        Until::next_layer);
-    add("curve", [](const Asked& a, const HttpRequest& request, const PassControl& control) -> HttpReply {
-        return area_curve(*a.job, request.integer("values", 400, 2, 4096), control);
-    });
+        View::paths);
+    add("curve", curve<area_curve>);
+    add("curve/islands", curve<island_curve>, View::curve);
+    add("curve/time", curve<time_curve>, View::curve);
     add("volume", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
         return volume(coverage_volume(*a.job, request.integer("n", 96, 8, 256), control));
     });
     add("modulus", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
         return volume(modulus_volume(*a.job, request.integer("n", 96, 8, 256), control));
+    });
+    add("structure", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
+        return volume(structure_volume(*a.job, request.integer("n", 96, 8, 256), control));
     });
     add("frame.png", frame);
 }

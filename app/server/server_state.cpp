@@ -39,9 +39,9 @@ ServerState::ServerState(const ServerOptions& given)
     if (options.has_page) add_page_routes(*this);
 }
 
-SessionWork::SessionWork(ServerState& state, const HttpRequest& request, Until until) {
+SessionWork::SessionWork(ServerState& state, const HttpRequest& request, std::optional<JobStore::View> view) {
     const std::string session = request.text("session");
-    cancel = until == Until::next_layer ? state.jobs.begin_layer(session) : state.jobs.work_of(session);
+    cancel = view ? state.jobs.begin_view(session, *view) : state.jobs.work_of(session);
     control.threads = state.options.threads;
     control.cancel = cancel.get();
 }

@@ -1,10 +1,10 @@
 // ServerState: what the routes of a server share.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <semaphore>
 #include <set>
 #include <string>
@@ -62,9 +62,8 @@ struct ServerState {
 /// Control of slow work that a request asks for: a newer recipe of its session ends it. Without a session
 /// nothing does.
 struct SessionWork {
-    /// What else ends the work: nothing, or a request of the session for the same of another layer.
-    enum class Until : std::uint8_t { next_job, next_layer };
-    SessionWork(ServerState& state, const HttpRequest& request, Until until = Until::next_job);
+    /// With a view another request of the session for the same ends the work, too.
+    SessionWork(ServerState& state, const HttpRequest& request, std::optional<JobStore::View> view = {});
 
     std::shared_ptr<CancelToken> cancel;  ///< null without a session
     PassControl control;

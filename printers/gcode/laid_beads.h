@@ -11,11 +11,11 @@ namespace lamella {
 /// The moves that lay the beads of one tool, from the first bead on. Positions are on the bed, mm.
 struct LaidBeads {
     const ToolBeads* beads = nullptr;
-    dvec2 first{0};               ///< start of the first bead
-    dvec2 last{0};                ///< end of the last move
-    std::vector<dvec2> trail;     ///< path from the end of the last bead along which the nozzle may be wiped
+    dvec2 first{0};            ///< start of the first bead
+    dvec2 last{0};             ///< end of the last move
+    std::vector<dvec2> trail;  ///< path from the end of the last bead along which the nozzle may be wiped
     std::vector<GcodeMove> moves;
-    double slowed = 0;            ///< length of extrusion slowed down for the rate of lines, mm
+    double slowed = 0;  ///< length of extrusion slowed down for the rate of lines, mm
 };
 
 /// Returns the shift from the coordinates of a job to those of the bed, mm.

@@ -4,7 +4,7 @@ import type { Job } from "../server/types";
 import { clamp_layer, slab_of } from "../state/heights";
 import { job, layer } from "../state/store";
 import { Segments } from "../shell/segments";
-import { curve } from "./curve";
+import { curve } from "./curves";
 import { PathChoice, PathLegend } from "./path_legend";
 import { LayerPicture, type LayerMode, mode_of, wanted_mode } from "./picture";
 import { Scrubber } from "./scrubber";

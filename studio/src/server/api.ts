@@ -6,6 +6,7 @@ import type {
     Contours,
     Curve,
     Example,
+    Islands,
     Job,
     Machine,
     Outlook,
@@ -17,6 +18,7 @@ import type {
     PrintRequest,
     Report,
     Table,
+    Times,
     Values,
     Version,
 } from "./types";
@@ -84,6 +86,12 @@ export const get_paths = (job: Job, layer: number, signal: Signal) =>
 
 export const get_curve = (job: Job, signal: Signal) =>
     get_json<Curve>(of_job(job, `curve?values=400&session=${session}`), { signal });
+
+export const get_islands = (job: Job, signal: Signal) =>
+    get_json<Islands>(of_job(job, `curve/islands?values=400&session=${session}`), { signal });
+
+export const get_times = (job: Job, values: number, signal: Signal) =>
+    get_json<Times>(of_job(job, `curve/time?values=${values}&session=${session}`), { signal });
 
 export const get_volume = (job: Job, voxels: number, signal: Signal) =>
     get_bytes(of_job(job, `volume?n=${voxels}&session=${session}`), { signal });

@@ -92,6 +92,8 @@ export interface Change {
     value: string | null;
 }
 
+export type Structure = "skin" | "frame" | "solid" | "foam" | "body" | "supports";
+
 export interface Job {
     job: string;
     name: string;
@@ -107,6 +109,8 @@ export interface Job {
     supports: boolean;
     /** Of the foam, where it is known. */
     modulus: { predicted_MPa: [number, number] } | null;
+    /** What of the part can be told apart; empty: nothing. */
+    structure: Structure[];
     notes: string[];
     display: {
         width: number;
@@ -152,6 +156,18 @@ export interface Curve {
     layers_a_value: number;
     area_mm2: number[];
     support_area_mm2: number[];
+}
+
+/** Pieces that begin with nothing below them, of all layers that share a value. */
+export interface Islands {
+    layers_a_value: number;
+    islands: number[];
+    pitch_mm: number;
+}
+
+export interface Times {
+    layers_a_value: number;
+    seconds: number[];
 }
 
 /** A place of a fault; its size is in a field named by its unit, such as size_mm2. */

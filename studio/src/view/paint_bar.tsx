@@ -1,17 +1,26 @@
 // Chooses what colours show, and says what they mean.
 import { Segments } from "../shell/segments";
-import { can_paint, paint_choice, shown_scale, type PaintChoice } from "./paint";
+import type { Structure } from "../server/types";
+import { choose_paint, paint_choice, paint_choices, type PaintChoice, type Scale, shown_paint } from "./paint";
 
 const choices: { word: PaintChoice; label: string; title: string }[] = [
     { word: "plain", label: "plain", title: "One colour for the part" },
+    { word: "structure", label: "structure", title: "Colours for skin, frame, solid regions, foam and supports" },
     { word: "modulus", label: "modulus", title: "Colours for Young's modulus of the foam" },
 ];
 
+const names: Record<Structure, string> = {
+    skin: "skin",
+    frame: "frame",
+    solid: "solid region",
+    foam: "foam",
+    body: "body",
+    supports: "supports",
+};
+
 const shown = (mpa: number) => String(Number(mpa.toPrecision(3)));
 
-function Legend() {
-    const scale = shown_scale.value;
-    if (!scale) return null;
+function ModulusLegend({ scale }: { scale: Scale }) {
     const middle = Math.sqrt(scale.lo_mpa * scale.hi_mpa);
     return (
         <div class="paint-legend">
@@ -35,8 +44,27 @@ function Legend() {
     );
 }
 
+function StructureLegend({ parts }: { parts: Structure[] }) {
+    return (
+        <ul class="paint-legend structure">
+            {parts.map((part) => (
+                <li class="paint-key" key={part}>
+                    <i class={`of-${part}`} aria-hidden="true" /> {names[part]}
+                </li>
+            ))}
+        </ul>
+    );
+}
+
+function Legend() {
+    const paint = shown_paint.value;
+    if (!paint) return null;
+    return paint.of === "modulus" ? <ModulusLegend scale={paint.scale} /> : <StructureLegend parts={paint.parts} />;
+}
+
 export function PaintBar() {
-    if (!can_paint.value) return null;
+    const there = paint_choices.value;
+    if (there.length < 2) return null;
     return (
         <div class="paint-bar">
             <div class="paint-row">
@@ -45,14 +73,12 @@ export function PaintBar() {
                 </span>
                 <Segments
                     labelled_by="paint-name"
-                    choices={choices}
+                    choices={choices.filter(({ word }) => there.includes(word))}
                     value={paint_choice.value}
-                    choose={(word) => {
-                        paint_choice.value = word;
-                    }}
+                    choose={choose_paint}
                 />
             </div>
-            {paint_choice.value === "modulus" && <Legend />}
+            <Legend />
         </div>
     );
 }

@@ -1,34 +1,38 @@
 // Loads the colours of the part that is shown.
 import { effect } from "@preact/signals";
-import { get_modulus } from "../server/analysis";
+import { get_modulus, get_structure } from "../server/analysis";
 import { Latest } from "../server/latest";
 import { report } from "../state/notices";
 import { job } from "../state/store";
-import { paint_choice, painted, read_paint, shown_scale } from "./paint";
+import { choose_paint, paint_choice, read_paint, shown_paint } from "./paint";
 import type { Stage } from "./stage";
 
-/** Voxels along the longest side: the modulus changes from cell to cell at most. */
+/** Voxels along the longest side: the modulus changes from cell to cell at most, and boundaries are interpolated. */
 const voxels = 96;
 
 export function watch_paint(on: Stage): () => void {
     const latest = new Latest();
     const stop = effect(() => {
         const made = job.value;
-        if (!made || !painted.value) {
-            latest.cancel();
+        const choice = paint_choice.value;
+        if (shown_paint.peek()?.of !== choice) {
             on.set_paint(null);
-            shown_scale.value = null;
+            shown_paint.value = null;
+        }
+        if (!made || choice === "plain") {
+            latest.cancel();
             return;
         }
+        const ask = choice === "modulus" ? get_modulus : get_structure;
         latest.run(async (signal) => {
             try {
-                const paint = read_paint(await get_modulus(made, voxels, signal));
-                if (job.value?.job !== made.job || !painted.value) return;
+                const paint = read_paint(choice, await ask(made, voxels, signal));
+                if (job.value?.job !== made.job || paint_choice.value !== choice) return;
                 on.set_paint(paint);
-                shown_scale.value = paint.scale;
+                shown_paint.value = paint;
             } catch (error) {
                 report(error);
-                if (!signal.aborted) paint_choice.value = "plain";
+                if (!signal.aborted) choose_paint("plain");
             }
         });
     });
