@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "app/jobs/part_numbers.h"
 #include "app/jobs/part_structure.h"
 #include "app/jobs/recipe_mistakes.h"
 #include "printers/common/layer_heights.h"
@@ -179,6 +180,7 @@ nlohmann::ordered_json ServedJob::facts() const {
             {"parts", parts},
             {"modulus", built.modulus ? modulus_json(*built.modulus) : Json(nullptr)},
             {"structure", structure_parts(*this)},
+            {"numbers", varying_numbers(*this)},
             {"notes", notes},
             {"display", display}};
 }

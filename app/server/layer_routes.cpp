@@ -7,6 +7,7 @@
 #include "app/jobs/layer_curve.h"
 #include "app/jobs/layer_paths.h"
 #include "app/jobs/part_modulus.h"
+#include "app/jobs/part_numbers.h"
 #include "app/jobs/part_structure.h"
 #include "app/reports/modulus_paint.h"
 #include "app/server/server_state.h"
@@ -141,6 +142,9 @@ void add_layer_routes(ServerState& state) {
     });
     add("structure", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
         return volume(structure_volume(*a.job, request.integer("n", 96, 8, 256), control));
+    });
+    add("numbers", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
+        return volume(number_volume(*a.job, request.text("of"), request.integer("n", 96, 8, 256), control));
     });
     add("frame.png", frame);
 }

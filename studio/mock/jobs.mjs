@@ -143,6 +143,7 @@ export function build_job(text, extents) {
         supports,
         modulus: modulus_of(values),
         structure: structure_of(values, supports),
+        numbers: Number.isNaN(Number(values["foam.cell"] ?? 0)) ? [{ name: "foam.cell", unit: "mm" }] : [],
         notes,
         display,
     };

@@ -111,6 +111,8 @@ export interface Job {
     modulus: { predicted_MPa: [number, number] } | null;
     /** What of the part can be told apart; empty: nothing. */
     structure: Structure[];
+    /** Numbers that vary over the part. */
+    numbers: { name: string; unit: string }[];
     notes: string[];
     display: {
         width: number;

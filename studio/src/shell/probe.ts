@@ -46,7 +46,7 @@ export const probe: Probe = {
             design: shown_design.value,
             paint: shown_paint.value && {
                 of: shown_paint.value.of,
-                ...(shown_paint.value.of === "modulus" ? shown_paint.value.scale : { parts: shown_paint.value.parts }),
+                ...(shown_paint.value.of === "structure" ? { parts: shown_paint.value.parts } : shown_paint.value.scale),
             },
             path_look: path_look.value,
             curve: { of: curve_choice.value, job: counted.value?.job.job ?? null, ...(counted.value?.islands ?? counted.value?.times) },

@@ -1,10 +1,10 @@
-// What colours show on the part: nothing, the modulus of its foam, or what it is made of.
+// What colours show on the part: nothing, what it is made of, the modulus of its foam, or a graded number.
 import { computed, signal } from "@preact/signals";
 import type { Structure, Triple } from "../server/types";
 import { job } from "../state/store";
 import { shown_design } from "./design";
 
-export type PaintChoice = "plain" | "modulus" | "structure";
+export type PaintChoice = "plain" | "structure" | "modulus" | "number";
 
 const wanted = signal<PaintChoice>("plain");
 
@@ -15,6 +15,7 @@ export const paint_choices = computed<PaintChoice[]>(() => {
     const there: PaintChoice[] = ["plain"];
     if (made.structure.length) there.push("structure");
     if (made.modulus) there.push("modulus");
+    if (made.numbers.length) there.push("number");
     return there;
 });
 
@@ -22,6 +23,18 @@ export const paint_choices = computed<PaintChoice[]>(() => {
 export const paint_choice = computed<PaintChoice>(() =>
     paint_choices.value.includes(wanted.value) ? wanted.value : "plain",
 );
+
+const wanted_number = signal("");
+
+/** The name of the number that is wanted, or the first of those that vary. */
+export const paint_number = computed(() => {
+    const names = (job.value?.numbers ?? []).map(({ name }) => name);
+    return names.includes(wanted_number.value) ? wanted_number.value : (names[0] ?? "");
+});
+
+export function choose_number(name: string): void {
+    wanted_number.value = name;
+}
 
 export function choose_paint(choice: PaintChoice): void {
     wanted.value = choice;
@@ -52,7 +65,13 @@ export interface StructurePaint extends Samples {
     parts: Structure[];
 }
 
-export type Paint = ModulusPaint | StructurePaint;
+/** Codes by voxels: 0 plain, 3 to 255 evenly along the scale. */
+export interface NumberPaint extends Samples {
+    of: "number";
+    scale: { lo: number; hi: number; unit: string };
+}
+
+export type Paint = ModulusPaint | StructurePaint | NumberPaint;
 
 /** What of the part lies in nothing else. */
 export const rest_of = (parts: Structure[]) => parts.filter((part) => part !== "supports").at(-1) ?? "body";

@@ -1,12 +1,24 @@
 // Chooses what colours show, and says what they mean.
 import { Segments } from "../shell/segments";
 import type { Structure } from "../server/types";
-import { choose_paint, paint_choice, paint_choices, type PaintChoice, type Scale, shown_paint } from "./paint";
+import {
+    choose_number,
+    choose_paint,
+    type NumberPaint,
+    paint_choice,
+    paint_choices,
+    paint_number,
+    type PaintChoice,
+    type Scale,
+    shown_paint,
+} from "./paint";
+import { job } from "../state/store";
 
 const choices: { word: PaintChoice; label: string; title: string }[] = [
     { word: "plain", label: "plain", title: "One colour for the part" },
     { word: "structure", label: "structure", title: "Colours for skin, frame, solid regions, foam and supports" },
     { word: "modulus", label: "modulus", title: "Colours for Young's modulus of the foam" },
+    { word: "number", label: "number", title: "Colours for a number that varies, such as the size of the cells" },
 ];
 
 const names: Record<Structure, string> = {
@@ -18,18 +30,29 @@ const names: Record<Structure, string> = {
     supports: "supports",
 };
 
-const shown = (mpa: number) => String(Number(mpa.toPrecision(3)));
+const shown = (value: number) => String(Number(value.toPrecision(3)));
+
+function Ends({ values, unit }: { values: number[]; unit: string }) {
+    return (
+        <>
+            <div class="paint-scale" aria-hidden="true" />
+            <div class="paint-ends">
+                {values.map((value, i) => (
+                    <span key={i}>
+                        {shown(value)}
+                        {i === values.length - 1 && unit && ` ${unit}`}
+                    </span>
+                ))}
+            </div>
+        </>
+    );
+}
 
 function ModulusLegend({ scale }: { scale: Scale }) {
     const middle = Math.sqrt(scale.lo_mpa * scale.hi_mpa);
     return (
         <div class="paint-legend">
-            <div class="paint-scale" aria-hidden="true" />
-            <div class="paint-ends">
-                <span>{shown(scale.lo_mpa)}</span>
-                <span>{shown(middle)}</span>
-                <span>{shown(scale.hi_mpa)} MPa</span>
-            </div>
+            <Ends values={[scale.lo_mpa, middle, scale.hi_mpa]} unit="MPa" />
             {scale.is_asked && (
                 <>
                     <div class="paint-key">
@@ -40,6 +63,32 @@ function ModulusLegend({ scale }: { scale: Scale }) {
                     </div>
                 </>
             )}
+        </div>
+    );
+}
+
+function NumberChoice() {
+    return (
+        <select
+            class="paint-number"
+            aria-label="Number that is painted"
+            value={paint_number.value}
+            onChange={(event) => choose_number(event.currentTarget.value)}
+        >
+            {(job.value?.numbers ?? []).map(({ name }) => (
+                <option key={name} value={name}>
+                    {name}
+                </option>
+            ))}
+        </select>
+    );
+}
+
+function NumberLegend({ scale }: { scale: NumberPaint["scale"] }) {
+    const { lo, hi, unit } = scale;
+    return (
+        <div class="paint-legend">
+            <Ends values={lo === hi ? [hi] : [lo, (lo + hi) / 2, hi]} unit={unit} />
         </div>
     );
 }
@@ -59,7 +108,8 @@ function StructureLegend({ parts }: { parts: Structure[] }) {
 function Legend() {
     const paint = shown_paint.value;
     if (!paint) return null;
-    return paint.of === "modulus" ? <ModulusLegend scale={paint.scale} /> : <StructureLegend parts={paint.parts} />;
+    if (paint.of === "structure") return <StructureLegend parts={paint.parts} />;
+    return paint.of === "modulus" ? <ModulusLegend scale={paint.scale} /> : <NumberLegend scale={paint.scale} />;
 }
 
 export function PaintBar() {
@@ -78,6 +128,7 @@ export function PaintBar() {
                     choose={choose_paint}
                 />
             </div>
+            {paint_choice.value === "number" && <NumberChoice />}
             <Legend />
         </div>
     );

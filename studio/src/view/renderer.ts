@@ -122,9 +122,9 @@ export class Renderer {
         this.paint = paint && {
             paint,
             texture:
-                paint.of === "modulus"
-                    ? this.texture(2, paint.size, gl.R8, gl.RED, paint.data, gl.NEAREST)
-                    : this.texture(2, paint.size, gl.RGB8, gl.RGB, paint.data, gl.LINEAR),
+                paint.of === "structure"
+                    ? this.texture(2, paint.size, gl.RGB8, gl.RGB, paint.data, gl.LINEAR)
+                    : this.texture(2, paint.size, gl.R8, gl.RED, paint.data, gl.NEAREST),
         };
     }
 
@@ -250,7 +250,7 @@ export class Renderer {
     private set_paint_colours({ structure }: Colours): void {
         const gl = this.gl;
         const paint = this.paint?.paint;
-        gl.uniform1i(this.place("painted_by"), !paint ? 0 : paint.of === "modulus" ? 1 : 2);
+        gl.uniform1i(this.place("painted_by"), !paint ? 0 : paint.of === "structure" ? 2 : 1);
         const rest = paint?.of === "structure" ? rest_of(paint.parts) : "body";
         this.triple("skin_colour", structure.skin);
         this.triple("frame_colour", structure.frame);

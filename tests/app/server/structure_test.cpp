@@ -124,4 +124,37 @@ TEST_CASE("a part of one thing has no structure", "[server]") {
     CHECK(mentions(refused["message"].get<std::string>(), "nothing can be told apart"));
 }
 
+TEST_CASE("graded numbers lie where their formulas put them", "[server]") {
+    const RunningServer server;
+    const std::string recipe =
+        "[part]\nshape = \"box\"\nsize = [20, 8, 8]\nturn = [0, 0, 90]\n[layers]\nheight = 0.2\n"
+        "[printer]\nprofile = \"generic-4k\"\n[[grading]]\nname = \"along\"\nkind = \"formula\"\n"
+        "formula = \"x * x\"\n[foam]\ncell = \"3 + 0.05 * x\"\nbeam = 0.4\n";
+    const std::string id = server.build(recipe);
+    CHECK(server.json("GET", "/api/jobs/" + id)["numbers"] ==
+          Json{{{"name", "foam.cell"}, {"unit", "mm"}}, {{"name", "along"}, {"unit", ""}}});
+    const auto check = [&](const std::string& name, double lo, double hi, auto number) {
+        const Volume found = volume(server, "/api/jobs/" + id + "/numbers?n=40&of=" + name);
+        const auto end = [&](const char* which) { return found.head["scale"][which].get<double>(); };
+        CHECK(end("lo") == Approx(lo).margin(0.05 * (hi - lo)));
+        CHECK(end("hi") == Approx(hi).margin(0.07 * (hi - lo)));
+        int near = 0, off = 0;
+        found.for_each([&](int x, int y, int z) {
+            const int code = found.at(x, y, z, 0);
+            if (code == 0) return;
+            ++near;
+            // The part was turned: y of the job is x of the recipe.
+            const double share = (number(found.middle(x, y, z).y) - end("lo")) / (end("hi") - end("lo"));
+            off += std::abs(code - (3 + 252 * std::clamp(share, 0.0, 1.0))) > 1;
+        });
+        CHECK(near > 1000);
+        CHECK(off == 0);
+    };
+    check("foam.cell", 2.5, 3.5, [](double x) { return 3 + 0.05 * std::clamp(x, -10.0, 10.0); });
+    check("along", 0, 100, [](double x) { return x * x; });
+    CHECK(mentions(server.json("GET", "/api/jobs/" + id + "/numbers?of=foam.beam", {}, 400)["message"]
+                       .get<std::string>(),
+                   "accepted: foam.cell, along"));
+}
+
 }  // namespace structure_test
