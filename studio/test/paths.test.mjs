@@ -30,11 +30,12 @@ profile = "marlin"
 
 const legend = (page) => page.getByLabel("Colours of the paths");
 const words = async (page) => (await legend(page).innerText()).replace(/\s+/g, " ");
-const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-async function picture(page) {
-    await settled(page);
-    return page.locator(".layer-room").screenshot();
-}
+/** What the canvas of the layer holds once it is drawn anew. */
+const picture = (page) =>
+    page.evaluate(async () => {
+        for (let i = 0; i < 2; ++i) await new Promise(requestAnimationFrame);
+        return document.querySelector(".layer-room canvas").toDataURL();
+    });
 
 test("paths show role, speed, width and travel, by keys", async () => {
     studio = await open_studio(browser, { recipe });
@@ -46,18 +47,15 @@ test("paths show role, speed, width and travel, by keys", async () => {
     assert.equal((await studio.state()).path_look.colour, "speed");
     assert.match(await words(page), /^speed 30 60 90 mm\/s F1800 – F5400$/);
     const speeds = await picture(page);
-    assert.notDeepEqual(speeds, roles);
+    assert.notEqual(speeds, roles);
     await page.keyboard.press("ArrowRight");
     assert.match(await words(page), /^width 0\.45 mm$/);
     await page.getByRole("checkbox", { name: "travel" }).focus();
     const widths = await picture(page);
     await page.keyboard.press("Space");
     assert.match(await words(page), /travel travel, retracted$/);
-    assert.notDeepEqual(await picture(page), widths);
-    for (const scheme of ["light", "dark"]) {
-        await page.emulateMedia({ colorScheme: scheme });
-        assert.deepEqual(await violations(page), [], scheme);
-    }
+    assert.notEqual(await picture(page), widths);
+    assert.deepEqual(await violations(page), []);
     await page.getByRole("radio", { name: "contours" }).click();
     await page.getByText("Colours", { exact: true }).waitFor({ state: "detached" });
     assert.deepEqual(studio.errors, []);

@@ -35,8 +35,10 @@ export function volume_of({ job: made, curve: got }: { job: Job; curve: Curve })
     return { part: sum(got.area_mm2), supports: sum(got.support_area_mm2) };
 }
 
-/** Numbers of values that times are asked for one after the other: each costs a layer's toolpaths. */
+/** Numbers of values that times of beads are asked for one after the other: each costs a layer's toolpaths. */
 const finer = [12, 48, 192];
+/** Exposures cost nothing. */
+const all_at_once = [400];
 
 async function load_counted(made: Job, choice: CurveChoice, signal: AbortSignal): Promise<void> {
     if (choice === "islands") counted.value = { job: made, islands: await get_islands(made, signal) };
@@ -46,7 +48,7 @@ async function load_counted(made: Job, choice: CurveChoice, signal: AbortSignal)
 }
 
 async function load_times(made: Job, signal: AbortSignal): Promise<void> {
-    for (const values of finer) {
+    for (const values of made.process === "resin" ? all_at_once : finer) {
         const times = await get_times(made, values, signal);
         counted.value = { job: made, times };
         if (times.layers_a_value === 1) return;
