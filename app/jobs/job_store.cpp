@@ -23,7 +23,7 @@ void check_is_searched(const Recipe& recipe) {
 void JobStore::Build::end_work() {
     work->cancel();
     work = std::make_shared<CancelToken>();
-    for (const auto& [view, cancel] : views) cancel->cancel();
+    for (const auto& [view, looking] : views) looking->cancel();
     views.clear();
 }
 

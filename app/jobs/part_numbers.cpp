@@ -84,7 +84,7 @@ std::string number_volume(const ServedJob& job, const std::string& name, int lon
     if (!(std::isfinite(lo) && std::isfinite(hi)))
         throw HttpError(400,
                         "of: `" + name + "` has no number in the part; accepted: one that is defined there");
-    const PlaceBytes sample = [&](dvec3 place, std::span<std::uint8_t> bytes) {
+    const auto sample = [&](dvec3 place, std::span<std::uint8_t> bytes) {
         const double value = number.grading->at(place);
         const double share = hi > lo ? std::clamp((value - lo) / (hi - lo), 0.0, 1.0) : 0.5;
         constexpr int span = ModulusCode::most - ModulusCode::least;
@@ -92,7 +92,7 @@ std::string number_volume(const ServedJob& job, const std::string& name, int lon
                        ? std::uint8_t{0}
                        : static_cast<std::uint8_t>(ModulusCode::least + std::lround(span * share));
     };
-    return part_samples(job, longest, {1, [&](const VoxelBrick&) { return sample; }},
+    return part_samples(job, longest, {1, [&](const VoxelBrick&) -> PlaceBytes { return sample; }},
                         {{"scale", {{"lo", lo}, {"hi", hi}, {"unit", number.unit}}}}, control);
 }
 
