@@ -21,8 +21,9 @@ struct Volume {
     double voxel = 0;
 
     int at(int x, int y, int z, int channel) const {
-        const auto place = static_cast<std::size_t>(((z * ny + y) * nx + x) * channels + channel);
-        return static_cast<unsigned char>(bytes[place]);
+        const auto in = [](int number) { return static_cast<std::size_t>(number); };
+        const std::size_t voxel_place = (in(z)*in(ny) + in(y)) * in(nx) + in(x);
+        return static_cast<unsigned char>(bytes[voxel_place * in(channels) + in(channel)]);
     }
     dvec3 middle(int x, int y, int z) const {
         const auto lo = [&](std::size_t k) { return head["lo"][k].get<double>(); };
@@ -49,7 +50,8 @@ Volume volume(const RunningServer& server, const std::string& path) {
     found.nz = found.head["size"][2];
     found.channels = found.head["channels"];
     found.voxel = (found.head["hi"][0].get<double>() - found.head["lo"][0].get<double>()) / found.nx;
-    REQUIRE(found.bytes.size() == static_cast<std::size_t>(found.nx * found.ny * found.nz * found.channels));
+    REQUIRE(static_cast<std::int64_t>(found.bytes.size()) ==
+            std::int64_t{found.nx} * found.ny * found.nz * found.channels);
     return found;
 }
 
