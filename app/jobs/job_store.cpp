@@ -20,6 +20,13 @@ void check_is_searched(const Recipe& recipe) {
 
 }  // namespace
 
+void JobStore::Build::end_work() {
+    work->cancel();
+    work = std::make_shared<CancelToken>();
+    for (const auto& [view, looking] : views) looking->cancel();
+    views.clear();
+}
+
 std::shared_ptr<CancelToken> JobStore::begin(const std::string& session, std::int64_t sequence) {
     constexpr std::size_t most_sessions = 64;
     const std::lock_guard lock(mutex_);
@@ -41,8 +48,7 @@ void JobStore::end_work(const std::string& session, std::int64_t sequence) {
     const std::lock_guard lock(mutex_);
     const auto found = builds_.find(session);
     if (found == builds_.end() || found->second.sequence != sequence) return;
-    found->second.work->cancel();
-    found->second.work = std::make_shared<CancelToken>();
+    found->second.end_work();
 }
 
 void JobStore::end_session(const std::string& session) {
@@ -50,7 +56,7 @@ void JobStore::end_session(const std::string& session) {
     const auto found = builds_.find(session);
     if (found == builds_.end()) return;
     found->second.cancel->cancel();
-    found->second.work->cancel();
+    found->second.end_work();
     builds_.erase(found);
 }
 
@@ -58,6 +64,16 @@ std::shared_ptr<CancelToken> JobStore::work_of(const std::string& session) {
     const std::lock_guard lock(mutex_);
     const auto found = builds_.find(session);
     return found == builds_.end() ? nullptr : found->second.work;
+}
+
+std::shared_ptr<CancelToken> JobStore::begin_view(const std::string& session, View view) {
+    const std::lock_guard lock(mutex_);
+    const auto found = builds_.find(session);
+    if (found == builds_.end()) return nullptr;
+    std::shared_ptr<CancelToken>& cancel = found->second.views[view];
+    if (cancel) cancel->cancel();
+    cancel = std::make_shared<CancelToken>();
+    return cancel;
 }
 
 std::shared_ptr<const ServedJob> JobStore::held(const std::string& id) {
@@ -109,9 +125,9 @@ void JobStore::forget(const std::string& id) {
 
 void JobStore::cancel_all() {
     const std::lock_guard lock(mutex_);
-    for (const auto& [session, build] : builds_) {
+    for (auto& [session, build] : builds_) {
         build.cancel->cancel();
-        build.work->cancel();
+        build.end_work();
     }
 }
 

@@ -29,6 +29,10 @@ class JobStore {
     /// Returns what tells slow work for a session that a newer recipe of the session has come; null for a
     /// session that has built nothing.
     std::shared_ptr<CancelToken> work_of(const std::string& session);
+    /// What a session looks at one of at a time: a layer's paths, a curve over the layers.
+    enum class View : std::uint8_t { paths, curve };
+    /// Ends what is computed for such a view of the session before; returns what tells the same to the next.
+    std::shared_ptr<CancelToken> begin_view(const std::string& session, View view);
     /// Throws HttpError 404 for a job that is not held.
     std::shared_ptr<const ServedJob> find(const std::string& id);
     void forget(const std::string& id);
@@ -40,6 +44,10 @@ class JobStore {
         std::int64_t sequence = 0;
         std::shared_ptr<CancelToken> cancel;
         std::shared_ptr<CancelToken> work;  ///< for those who look at the job
+        std::map<View, std::shared_ptr<CancelToken>> views;
+
+        /// Ends the work and that for the views, and begins it anew.
+        void end_work();
     };
     std::shared_ptr<CancelToken> begin(const std::string& session, std::int64_t sequence);
     void end_work(const std::string& session, std::int64_t sequence);

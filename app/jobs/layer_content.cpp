@@ -15,10 +15,7 @@
 #include "engine/base/parallel.h"
 #include "engine/contours/coverage.h"
 #include "engine/field/slice_context.h"
-#include "printers/gcode/gcode_roles.h"
-#include "printers/gcode/layer_beads.h"
 #include "printers/masks/png_writer.h"
-#include "printers/registry.h"
 
 namespace lamella {
 
@@ -28,19 +25,6 @@ using Json = nlohmann::ordered_json;
 
 using Color = std::array<double, 3>;
 constexpr Color ground{16, 20, 24}, part_color{223, 232, 242}, support_color{89, 143, 204};
-
-/// Returns the rows of square pixels that cover a rectangle, the first at its largest y.
-RowBand page_of(const Rect& rect, double pixel, int sub) {
-    RowBand band;
-    band.along_origin = rect.lo.x;
-    band.along_pitch = pixel;
-    band.across_origin = rect.hi.y;
-    band.across_pitch = -pixel;
-    band.sub = sub;
-    band.hi = std::max(1, static_cast<int>(std::lround(rect.size().x / pixel)));
-    band.count = std::max(1, static_cast<int>(std::lround(rect.size().y / pixel)));
-    return band;
-}
 
 Layer layer_of(const ServedJob& job, int layer) { return Layer(job.job(), layer); }
 
@@ -106,28 +90,19 @@ const SliceField* slice_of(const Layer& layer, bool of_supports) {
     return of_supports ? layer.supports() : &layer.part();
 }
 
-/// Returns the area that a slice covers of a page, mm^2.
-double area_of(const SliceField* slice, const RowBand& page) {
-    if (slice == nullptr) return 0;
-    Scratch scratch;
-    RunRows rows;
-    slice->runs(page, scratch, rows);
-    return static_cast<double>(rows.total_length()) / run_unit * page.along_pitch *
-           std::abs(page.line_pitch());
-}
-
-Json path_of(const Bead& bead, int tool, const PrinterProfile& printer, bool is_first) {
-    Json points = Json::array();
-    for (const dvec2& p : bead.points) {
-        points.push_back(std::round(p.x * 1e4) / 1e4);
-        points.push_back(std::round(p.y * 1e4) / 1e4);
-    }
-    return {{"role", role_name(bead)}, {"tool", std::max(tool, 0)},
-            {"width", bead.width},     {"speed", role_speed(printer, bead, is_first)},
-            {"closed", bead.closed},   {"points", std::move(points)}};
-}
-
 }  // namespace
+
+RowBand page_of(const Rect& rect, double pixel, int sub) {
+    RowBand band;
+    band.along_origin = rect.lo.x;
+    band.along_pitch = pixel;
+    band.across_origin = rect.hi.y;
+    band.across_pitch = -pixel;
+    band.sub = sub;
+    band.hi = std::max(1, static_cast<int>(std::lround(rect.size().x / pixel)));
+    band.count = std::max(1, static_cast<int>(std::lround(rect.size().y / pixel)));
+    return band;
+}
 
 std::string layer_picture(const ServedJob& job, int layer, const LayerWindow& window, bool in_colours) {
     constexpr double most_pixels = 1 << 26;
@@ -192,41 +167,6 @@ Json layer_contours(const ServedJob& job, int layer, double tolerance, bool of_s
         list.push_back({{"parent", contour.parent}, {"points", std::move(points)}});
     }
     return {{"contours", std::move(list)}, {"area", area}, {"z", cut.z()}};
-}
-
-Json layer_paths(const ServedJob& job, int layer) {
-    const PrinterProfile& printer = job.recipe.printer;
-    if (find_backend(printer.backend).content != LayerContent::beads)
-        throw HttpError(400, printer.name + " lays no beads; accepted: machines for filament");
-    const Layer cut = layer_of(job, layer);
-    const LayerBeads beads(job.job(), printer);
-    Json paths = Json::array();
-    for (const ToolBeads& tool : beads.plan(cut, ObjectLabels()).beads) {
-        if (tool.when == LaidWhen::tool_changed) continue;  // depends on the layers before
-        for (const Bead& bead : tool.paths.beads)
-            paths.push_back(path_of(bead, tool.tool, printer, cut.level() == 0));
-    }
-    return {{"paths", std::move(paths)}, {"z", cut.z()}};
-}
-
-Json area_curve(const ServedJob& job, int values, const PassControl& control) {
-    const int layers = job.job().layers.count();
-    const int each = std::max(1, (layers + values - 1) / values);
-    const int count = (layers + each - 1) / each;
-    constexpr int rows_across = 128;
-    const Rect rect = job.job().bounds.rect();
-    const RowBand page = page_of(rect, std::max(rect.size().x, rect.size().y) / rows_across, 1);
-    std::vector<double> part(static_cast<std::size_t>(count)), supports(part.size());
-    ThreadArena arena(control.threads);
-    arena.execute([&] {
-        parallel_for(part.size(), [&](std::size_t i) {
-            stop_if_cancelled(control.cancel);
-            const Layer cut = layer_of(job, std::min(static_cast<int>(i) * each + each / 2, layers - 1));
-            part[i] = area_of(&cut.part(), page);
-            supports[i] = area_of(cut.supports(), page);
-        });
-    });
-    return {{"layers_a_value", each}, {"area_mm2", part}, {"support_area_mm2", supports}};
 }
 
 RowBand voxel_page(const VoxelGrid& grid) {

@@ -1,4 +1,4 @@
-// What a server sends of a job's layers: pictures, runs, contours, paths, areas, volumes.
+// What a server sends of a job's layers: pictures, runs, contours, volumes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -27,13 +27,8 @@ std::string layer_runs(const ServedJob& job, int layer, const RowBand& band, boo
 /// Returns {"contours": [{"parent", "points": [x, y, ...]}], "area"}, mm, within `tolerance` of the surface.
 nlohmann::ordered_json layer_contours(const ServedJob& job, int layer, double tolerance, bool of_supports);
 
-/// Returns {"paths": [{"role", "tool", "width", "speed", "closed", "points": [x, y, ...]}]} of a machine that
-/// lays beads; mm, mm/s. Throws HttpError 400 for other machines.
-nlohmann::ordered_json layer_paths(const ServedJob& job, int layer);
-
-/// Returns the areas of at most `values` layers, evenly spread: {"layers_a_value", "area_mm2",
-/// "support_area_mm2"}, to about a percent. Throws Interrupted when cancelled.
-nlohmann::ordered_json area_curve(const ServedJob& job, int values, const PassControl& control);
+/// Returns the rows of square pixels that cover a rectangle, the first at its largest y, each of `sub` lines.
+RowBand page_of(const Rect& rect, double pixel, int sub);
 
 /// Returns the rows of a plane of voxels, upward along y.
 RowBand voxel_page(const VoxelGrid& grid);

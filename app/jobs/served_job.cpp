@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "app/jobs/part_numbers.h"
+#include "app/jobs/part_structure.h"
 #include "app/jobs/recipe_mistakes.h"
 #include "printers/common/layer_heights.h"
 #include "printers/process_limits.h"
@@ -177,6 +179,8 @@ nlohmann::ordered_json ServedJob::facts() const {
             {"supports", job().supports != nullptr},
             {"parts", parts},
             {"modulus", built.modulus ? modulus_json(*built.modulus) : Json(nullptr)},
+            {"structure", structure_parts(*this)},
+            {"numbers", varying_numbers(*this)},
             {"notes", notes},
             {"display", display}};
 }

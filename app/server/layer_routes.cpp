@@ -4,7 +4,11 @@
 #include <map>
 
 #include "app/jobs/layer_content.h"
+#include "app/jobs/layer_curve.h"
+#include "app/jobs/layer_paths.h"
 #include "app/jobs/part_modulus.h"
+#include "app/jobs/part_numbers.h"
+#include "app/jobs/part_structure.h"
 #include "app/reports/modulus_paint.h"
 #include "app/server/server_state.h"
 #include "printers/common/thumbnail.h"
@@ -40,7 +44,7 @@ bool of_supports(const HttpRequest& request) {
     throw HttpError(400, "what: accepted: part, supports");
 }
 
-HttpReply mask(const Asked& asked, const HttpRequest& request) {
+HttpReply mask(const Asked& asked, const HttpRequest& request, const PassControl& /*control*/) {
     constexpr double far = 1e6;
     const Rect bounds = asked.job->job().bounds.rect();
     LayerWindow window;
@@ -54,7 +58,7 @@ HttpReply mask(const Asked& asked, const HttpRequest& request) {
             layer_picture(*asked.job, asked.layer, window, request.integer("colors", 0, 0, 1) == 1)};
 }
 
-HttpReply runs(const Asked& asked, const HttpRequest& request) {
+HttpReply runs(const Asked& asked, const HttpRequest& request, const PassControl& /*control*/) {
     constexpr double far = 1e6;
     const Rect bounds = asked.job->job().bounds.rect();
     RowBand band;
@@ -70,7 +74,13 @@ HttpReply runs(const Asked& asked, const HttpRequest& request) {
     return {"application/octet-stream", layer_runs(*asked.job, asked.layer, band, of_supports(request))};
 }
 
-HttpReply frame(const Asked& asked, const HttpRequest& request, int threads) {
+/// A curve over the layers with as many values as the request asks for.
+template <nlohmann::ordered_json (*figures)(const ServedJob&, int, const PassControl&)>
+HttpReply curve(const Asked& asked, const HttpRequest& request, const PassControl& control) {
+    return figures(*asked.job, request.integer("values", 400, 2, 4096), control);
+}
+
+HttpReply frame(const Asked& asked, const HttpRequest& request, const PassControl& control) {
     PreviewOptions options;
     options.width = options.height = request.integer("width", 512, 16, 2048);
     options.azimuth = request.number("azimuth", options.azimuth, -3600, 3600);
@@ -80,54 +90,63 @@ HttpReply frame(const Asked& asked, const HttpRequest& request, int threads) {
         throw HttpError(400, "cut: accepted: -, x, y, z");
     options.cut = cut.front();
     options.cut_at = request.number("cut_at", options.cut_at, 0, 1);
-    options.threads = threads;
+    options.threads = control.threads;
     options.steady = true;
     options.smooth = request.integer("smooth", 1, 0, 1) == 1;
     const std::string paint = request.text("paint", "none");
     if (paint != "none" && paint != "modulus") throw HttpError(400, "paint: accepted: none, modulus");
     if (paint == "modulus") options.paint = modulus_paint(asked.job->built, "paint");
-    return {"image/png", png_file(asked.job->scene(options.width, threads)->render(options))};
+    return {"image/png", png_file(asked.job->scene(options.width, control.threads)->render(options))};
 }
 
 }  // namespace
 
 void add_layer_routes(ServerState& state) {
-    using Content = std::function<HttpReply(const Asked&, const HttpRequest&)>;
-    const auto add = [&state](const std::string& pattern, const Content& content) {
-        state.http.route("GET", "/api/jobs/{job}/" + pattern, [&state, content](const HttpRequest& request) {
+    using Content = std::function<HttpReply(const Asked&, const HttpRequest&, const PassControl&)>;
+    using View = JobStore::View;
+    const auto add = [&state](const std::string& pattern, const Content& content,
+                              std::optional<View> view = {}) {
+        const auto handle = [&state, content, view](const HttpRequest& request) {
             const Asked found = asked(state, request);
+            const SessionWork work(state, request, view);  // before the turn: the work before it gives it up
             const ComputeTurn turn(state.turns);
-            HttpReply reply = content(found, request);
+            HttpReply reply = content(found, request, work.control);
             // Of the recipe's text, as machines decide more than the layers' identity.
             reply.tag = found.job->id + "-" + std::to_string(std::hash<std::string>()(request.target));
             return reply;
-        });
+        };
+        state.http.route("GET", "/api/jobs/{job}/" + pattern, handle);
     };
-    const int threads = state.options.threads;
+    const auto volume = [](const std::string& bytes) { return HttpReply("application/octet-stream", bytes); };
     add("layers/{layer}/mask.png", mask);
     add("layers/{layer}/runs", runs);
-    add("layers/{layer}/contours", [](const Asked& a, const HttpRequest& request) -> HttpReply {
-        return layer_contours(*a.job, a.layer, request.number("tolerance", 0.02, 0.001, 10),
-                              of_supports(request));
+    add("layers/{layer}/contours",
+        [](const Asked& a, const HttpRequest& request, const PassControl&) -> HttpReply {
+            return layer_contours(*a.job, a.layer, request.number("tolerance", 0.02, 0.001, 10),
+                                  of_supports(request));
+        });
+    add(
+        "layers/{layer}/paths",
+        [](const Asked& a, const HttpRequest&, const PassControl& control) -> HttpReply {
+            return layer_paths(*a.job, a.layer, control.cancel);
+        },
+        View::paths);
+    add("curve", curve<area_curve>);
+    add("curve/islands", curve<island_curve>, View::curve);
+    add("curve/time", curve<time_curve>, View::curve);
+    add("volume", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
+        return volume(coverage_volume(*a.job, request.integer("n", 96, 8, 256), control));
     });
-    add("layers/{layer}/paths",
-        [](const Asked& a, const HttpRequest&) -> HttpReply { return layer_paths(*a.job, a.layer); });
-    add("curve", [&state](const Asked& a, const HttpRequest& request) -> HttpReply {
-        const SessionWork work(state, request);
-        return area_curve(*a.job, request.integer("values", 400, 2, 4096), work.control);
+    add("modulus", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
+        return volume(modulus_volume(*a.job, request.integer("n", 96, 8, 256), control));
     });
-    add("volume", [&state](const Asked& a, const HttpRequest& request) {
-        const SessionWork work(state, request);
-        return HttpReply("application/octet-stream",
-                         coverage_volume(*a.job, request.integer("n", 96, 8, 256), work.control));
+    add("structure", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
+        return volume(structure_volume(*a.job, request.integer("n", 96, 8, 256), control));
     });
-    add("modulus", [&state](const Asked& a, const HttpRequest& request) {
-        const SessionWork work(state, request);
-        return HttpReply("application/octet-stream",
-                         modulus_volume(*a.job, request.integer("n", 96, 8, 256), work.control));
+    add("numbers", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
+        return volume(number_volume(*a.job, request.text("of"), request.integer("n", 96, 8, 256), control));
     });
-    add("frame.png",
-        [threads](const Asked& a, const HttpRequest& request) { return frame(a, request, threads); });
+    add("frame.png", frame);
 }
 
 }  // namespace lamella

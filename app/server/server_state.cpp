@@ -39,8 +39,9 @@ ServerState::ServerState(const ServerOptions& given)
     if (options.has_page) add_page_routes(*this);
 }
 
-SessionWork::SessionWork(ServerState& state, const HttpRequest& request)
-    : cancel(state.jobs.work_of(request.text("session"))) {
+SessionWork::SessionWork(ServerState& state, const HttpRequest& request, std::optional<JobStore::View> view) {
+    const std::string session = request.text("session");
+    cancel = view ? state.jobs.begin_view(session, *view) : state.jobs.work_of(session);
     control.threads = state.options.threads;
     control.cancel = cancel.get();
 }

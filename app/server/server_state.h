@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <semaphore>
 #include <set>
 #include <string>
@@ -58,9 +59,11 @@ struct ServerState {
     std::set<std::filesystem::path> own_recipes;  ///< which may be written again
 };
 
-/// Control of slow work that a request asks for: a newer recipe of its session ends it.
+/// Control of slow work that a request asks for: a newer recipe of its session ends it. Without a session
+/// nothing does.
 struct SessionWork {
-    SessionWork(ServerState& state, const HttpRequest& request);
+    /// With a view another request of the session for the same ends the work, too.
+    SessionWork(ServerState& state, const HttpRequest& request, std::optional<JobStore::View> view = {});
 
     std::shared_ptr<CancelToken> cancel;  ///< null without a session
     PassControl control;

@@ -23,6 +23,7 @@
 #include "printers/gcode/gcode_thumbnail.h"
 #include "printers/gcode/gcode_totals.h"
 #include "printers/gcode/gcode_travel.h"
+#include "printers/gcode/laid_beads.h"
 #include "printers/gcode/laser_gcode.h"
 #include "printers/gcode/layer_beads.h"
 #include "printers/gcode/one_by_one.h"
@@ -74,8 +75,7 @@ class Gcode : public Backend {
         check_fit(job);
         layers_ = job.layers;
         range_ = range;
-        const dvec3 center = job.bounds.center();
-        shift_ = dvec2(filament_.bed_x, filament_.bed_y) * 0.5 - dvec2(center.x, center.y);
+        shift_ = bed_shift(job, profile_);
         if (gcode_.label_objects) labels_ = ObjectLabels(job, gcode_.flavour, shift_);
         const std::string supports = supported_ ? fmt::format(" supports {}", profile_.support.speed) : "";
         const int next = output_->begin({job.identity, gcode_settings(profile_) + supports, range}, resume);
@@ -114,13 +114,9 @@ class Gcode : public Backend {
         if (index > range_.first) change_heat(index, text);
         text.lines(expand_script(layer_script(gcode_), values(index)));
         std::string beads = text.text();
-        int tool = ToolBeads::any;  // of the last text
-        bool is_changed = false;
+        LaidChoice laid;
         for (const BeadText& next : product.texts) {
-            if (next.tool != tool) is_changed = next.tool != ToolBeads::any && next.tool != tool_;
-            tool = next.tool;
-            if (next.when != LaidWhen::always && is_changed != (next.when == LaidWhen::tool_changed))
-                continue;
+            if (!laid.takes(next.tool, next.when, tool_)) continue;
             beads += way_to(next, layer);
             beads += next.text;
             count(next);
@@ -164,15 +160,13 @@ class Gcode : public Backend {
     std::string way_to(const BeadText& next, const Layer& layer) {
         GcodeText text(profile_);
         GcodeMoves moves(profile_, position_, z_);
-        if (moves.retracts()) moves.retract(trail_);
-        const double way = travel_height(profile_, layer.top(), glm::distance(position_, next.first));
+        double way = travel_height(profile_, layer.top(), glm::distance(position_, next.first));
         // The way to the next part leads over those that are done.
         const bool is_over_parts = layer.index() > range_.first && z_ > layer.top();
-        moves.lift(is_over_parts ? std::max(way, std::min(z_ + over_parts, filament_.bed_z)) : way);
-        moves.travel(next.first);
+        if (is_over_parts) way = std::max(way, std::min(z_ + over_parts, filament_.bed_z));
+        leave_beads(moves, trail_, way, next.first);
         const auto go_on = [&](GcodeMoves& down) {
-            down.lift(layer.top());
-            if (down.retracts()) down.restore();
+            reach_beads(down, layer.top());
             append(down, text);
         };
         if (next.tool == ToolBeads::any || next.tool == tool_) {

@@ -16,6 +16,17 @@ double travel_height(const PrinterProfile& profile, double z, double length) {
     return std::max(z, std::min(z + profile.gcode.z_hop, profile.filament.bed_z));
 }
 
+void leave_beads(GcodeMoves& moves, std::span<const dvec2> trail, double z, dvec2 to) {
+    if (moves.retracts()) moves.retract(trail);
+    moves.lift(z);
+    moves.travel(to);
+}
+
+void reach_beads(GcodeMoves& moves, double top) {
+    moves.lift(top);
+    if (moves.retracts()) moves.restore();
+}
+
 void BeadTravel::go(dvec2 to, int from_island, int to_island, std::span<const dvec2> trail) {
     if (to == moves_.position()) return;  // the pieces of one bead follow each other
     const GcodeProfile& g = profile_.gcode;

@@ -14,6 +14,12 @@ namespace lamella {
 /// height z, mm. Never above the bed's height limit.
 double travel_height(const PrinterProfile& profile, double z, double length);
 
+/// Appends the moves from the end of one tool's beads to a place at height `z` over the start of the next
+/// ones: retracts, wiping along `trail`, rises and travels.
+void leave_beads(GcodeMoves& moves, std::span<const dvec2> trail, double z, dvec2 to);
+/// Appends the moves that follow: down to the layer's top, and the filament comes back.
+void reach_beads(GcodeMoves& moves, double top);
+
 /// Chooses the path of a travel and whether the filament is retracted. Between beads of one island the path
 /// stays inside the island if the profile asks for it and such a path exists; otherwise it is straight.
 class BeadTravel {

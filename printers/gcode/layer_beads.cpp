@@ -55,14 +55,14 @@ Toolpaths LayerBeads::fill(const Layer& layer, const std::vector<Contour>& conto
 /// Returns the layer below; empty for the first layer.
 std::optional<LayerBelow> LayerBeads::footing(const Layer& layer) const {
     if (layer.level() == 0) return std::nullopt;
-    return neighbours_.footing(layer.index(), profile_.filament.line_width / 4);
+    return neighbours_.footing(layer.index(), profile_.filament.line_width / 4, layer.cancel());
 }
 
 /// Returns the region where infill may be sparse; empty if no solid layers are required.
 std::optional<PlacedPolygons> LayerBeads::core(const Layer& layer) const {
     const ToolpathProfile& t = profile_.toolpath;
     if (profile_.filament.infill_density >= 1 || t.top_layers + t.bottom_layers == 0) return std::nullopt;
-    return neighbours_.core(layer.index(), t.bottom_layers, t.top_layers);
+    return neighbours_.core(layer.index(), t.bottom_layers, t.top_layers, layer.cancel());
 }
 
 /// Returns brim and skirt of the first layer; empty for other layers.
@@ -122,7 +122,7 @@ void LayerBeads::add_tower(const Layer& layer, const std::vector<int>& tools, La
 }
 
 LayerPaths LayerBeads::plan(const Layer& layer, const ObjectLabels& labels) const {
-    const auto outlines = neighbours_.outlines(layer.index());
+    const auto outlines = neighbours_.outlines(layer.index(), layer.cancel());
     stop_if_cancelled(layer.cancel());
     const FilamentProfile& filament = profile_.filament;
     LayerPaths planned;

@@ -17,6 +17,27 @@ export function modulus_of(values) {
     return { predicted_MPa: values["foam.modulus"] ? [40, 320] : [25, 100], is_asked: Boolean(values["foam.modulus"]) };
 }
 
+/** What of a part can be told apart, by its keys. */
+export function structure_of(values, supports) {
+    const has = (section) => Object.keys(values).some((key) => key.startsWith(`${section}.`));
+    const parts = has("foam") && has("skin") ? ["skin", "foam"] : [has("foam") ? "foam" : "body"];
+    if (supports) parts.push("supports");
+    return parts.length > 1 ? parts : [];
+}
+
+/** Skin in the upper half, foam below it. */
+export function structure_volume(job, n) {
+    const { structure, bounds } = job.info;
+    if (!structure.length) throw new NotThere("nothing can be told apart", 400);
+    const size = [n, n, n];
+    const head = Buffer.from(JSON.stringify({ size, ...bounds, channels: 3, parts: structure }));
+    const data = Buffer.alloc(3 * n ** 3);
+    for (let at = 0; at < n ** 3; ++at) data.set([at > n ** 3 / 2 ? 255 : 1, 1, 1], 3 * at);
+    const length = Buffer.alloc(4);
+    length.writeUInt32LE(head.length);
+    return Buffer.concat([length, head, data]);
+}
+
 /** A modulus that grows with x; where one is asked for, the first tenth is softer and the last one stiffer. */
 export function modulus_volume(job, n) {
     const { modulus } = job.info;

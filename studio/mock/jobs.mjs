@@ -1,6 +1,6 @@
 // Builds the jobs of recipes, or says what is wrong with them.
 import { createHash } from "node:crypto";
-import { modulus_of } from "./analyses.mjs";
+import { modulus_of, structure_of } from "./analyses.mjs";
 import { find_setting, profiles, table } from "./catalog.mjs";
 import { graded, make_field } from "./field.mjs";
 import { read_toml } from "./toml.mjs";
@@ -142,6 +142,8 @@ export function build_job(text, extents) {
         ],
         supports,
         modulus: modulus_of(values),
+        structure: structure_of(values, supports),
+        numbers: Number.isNaN(Number(values["foam.cell"] ?? 0)) ? [{ name: "foam.cell", unit: "mm" }] : [],
         notes,
         display,
     };

@@ -125,7 +125,12 @@ export function paths(job, layer) {
             }
         }
     }
-    return { paths: list, z: plane(job, layer) };
+    const travels = list.slice(1).map(({ points }, i) => {
+        const before = list[i];
+        const from = before.closed ? before.points.slice(0, 2) : before.points.slice(-2);
+        return { after: i + 1, speed: 150, retracts: i % 4 === 0, points: [...from, ...points.slice(0, 2)] };
+    });
+    return { paths: list, travels, seconds: 0.2 * list.length, z: plane(job, layer) };
 }
 
 export function curve(job, values) {
@@ -148,6 +153,25 @@ export function curve(job, values) {
         support.push(+(s * pitch * pitch).toFixed(3));
     }
     return { layers_a_value: step, area_mm2: area, support_area_mm2: support };
+}
+
+const shared = (job, values) => {
+    const step = Math.max(1, Math.ceil(job.count / values));
+    return { step, count: Math.ceil(job.count / step) };
+};
+
+/** Three islands, in the layer in the middle. */
+export function islands(job, values) {
+    const { step, count } = shared(job, values);
+    const list = new Array(count).fill(0);
+    list[Math.floor(count / 2)] = 3;
+    return { layers_a_value: step, islands: list, pitch_mm: 0.1 };
+}
+
+/** Each layer takes 6 s, the lowest tenth 30 s. */
+export function times(job, values) {
+    const { step, count } = shared(job, values);
+    return { layers_a_value: step, seconds: Array.from({ length: count }, (_, i) => (i < count / 10 ? 30 : 6)) };
 }
 
 export function volume(job, n) {

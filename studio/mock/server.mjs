@@ -6,7 +6,7 @@ import { createServer } from "node:http";
 import { extname } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
-import { make_analyses, modulus_volume } from "./analyses.mjs";
+import { make_analyses, modulus_volume, structure_volume } from "./analyses.mjs";
 import { examples, find_setting, machines, table } from "./catalog.mjs";
 import { build_job, check, objection, read_values } from "./jobs.mjs";
 import * as draw from "./layers.mjs";
@@ -186,6 +186,10 @@ export function make_mock({
             response.end(zip ? gzipSync(data, { level: 1 }) : data);
         };
         if (!rest.length) return job.info;
+        if (rest[0] === "structure")
+            return bytes("application/octet-stream", structure_volume(job, ask("n", 96)), true);
+        if (rest[1] === "islands") return draw.islands(job, ask("values", 400));
+        if (rest[1] === "time") return draw.times(job, ask("values", 400));
         if (rest[0] === "curve") return draw.curve(job, ask("values", 400));
         if (rest[0] === "volume")
             return bytes("application/octet-stream", draw.volume(job, Math.min(finest, ask("n", 96))), true);

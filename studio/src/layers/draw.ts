@@ -1,7 +1,10 @@
 // Draws what the layer pane shows: mask, contours or paths, the grid of pixels and the place of a fault.
-import type { Contours, Job, Path, Paths } from "../server/types";
+import type { Contours, Job, Paths } from "../server/types";
+import { draw_paths } from "./draw_paths";
 import { pixel_corner, pixel_of, type Picture } from "./mask";
-import { part_contour, role_colour, support_contour } from "./roles";
+import type { PathLook } from "./path_look";
+import { part_contour, support_contour } from "./roles";
+import { type Place, trace } from "./trace";
 import type { Frame } from "./window";
 
 export interface Lines {
@@ -16,18 +19,11 @@ export interface Drawing {
     frame: Frame;
     picture: Picture | null;
     lines: Lines | null;
+    look: PathLook;
     /** A place with a ring round it, mm. */
     mark: [number, number] | null;
 }
 
-/** Length of the shortest step of a line on the screen, px. */
-const least_step = 0.7;
-/** Lines that are wider on the screen have round ends, px. */
-const round_from = 2;
-/** Numbers of points of one stroke: the time that a stroke takes grows faster than its length. */
-const most_points = 2000;
-/** Beads whose widths differ by less are drawn together, mm: each width is a stroke of its own. */
-const width_step = 0.02;
 /** From this size of a pixel on the screen on, lines part the pixels. */
 const grid_from = 9;
 
@@ -54,11 +50,9 @@ export function draw(canvas: HTMLCanvasElement, drawing: Drawing): void {
     context.lineJoin = "round";
     context.lineCap = "round";
     if (drawing.lines?.contours) draw_contours(context, drawing.lines.contours, across, down);
-    if (drawing.lines?.paths) draw_paths(context, drawing.lines.paths, scale, across, down);
+    if (drawing.lines?.paths) draw_paths(context, drawing.lines.paths, drawing.look, { scale, across, down });
     if (drawing.mark) draw_mark(context, across(drawing.mark[0]), down(drawing.mark[1]));
 }
-
-type Place = (mm: number) => number;
 
 function draw_grid(
     context: CanvasRenderingContext2D,
@@ -94,29 +88,6 @@ function draw_bounds(context: CanvasRenderingContext2D, { bounds }: Job, across:
     context.strokeRect(across(lo[0]), down(hi[1]), across(hi[0]) - across(lo[0]), down(lo[1]) - down(hi[1]));
 }
 
-function trace(
-    context: CanvasRenderingContext2D,
-    points: number[],
-    closed: boolean,
-    across: Place,
-    down: Place,
-): void {
-    let lx = Infinity,
-        ly = Infinity;
-    for (let i = 0; i + 1 < points.length; i += 2) {
-        const px = across(points[i]!),
-            py = down(points[i + 1]!);
-        // Points that the screen cannot tell apart cost as much as others.
-        const is_last = i + 3 >= points.length;
-        if (!is_last && Math.abs(px - lx) + Math.abs(py - ly) < least_step) continue;
-        if (i) context.lineTo(px, py);
-        else context.moveTo(px, py);
-        lx = px;
-        ly = py;
-    }
-    if (closed) context.closePath();
-}
-
 function draw_contours(
     context: CanvasRenderingContext2D,
     { part, supports }: NonNullable<Lines["contours"]>,
@@ -136,40 +107,6 @@ function draw_contours(
         context.globalAlpha = 1;
         context.strokeStyle = colour;
         context.lineWidth = 1.2;
-        context.stroke();
-    }
-}
-
-function draw_paths(
-    context: CanvasRenderingContext2D,
-    { paths }: Paths,
-    scale: number,
-    across: Place,
-    down: Place,
-): void {
-    const groups = new Map<string, { role: string; width: number; paths: Path[] }>();
-    for (const one of paths) {
-        const width = Math.max(1, Math.round(one.width / width_step)) * width_step;
-        const name = `${one.role} ${width}`;
-        const group = groups.get(name);
-        if (group) group.paths.push(one);
-        else groups.set(name, { role: one.role, width, paths: [one] });
-    }
-    for (const group of [...groups.values()].reverse()) {
-        context.strokeStyle = role_colour(group.role);
-        context.lineWidth = Math.max(0.8, group.width * scale * 0.88);
-        context.lineJoin = context.lineWidth >= round_from ? "round" : "bevel";
-        context.lineCap = context.lineWidth >= round_from ? "round" : "butt";
-        let points = 0;
-        context.beginPath();
-        for (const one of group.paths) {
-            trace(context, one.points, one.closed, across, down);
-            points += one.points.length;
-            if (points < most_points) continue;
-            context.stroke();
-            context.beginPath();
-            points = 0;
-        }
         context.stroke();
     }
 }

@@ -2,7 +2,7 @@
 import { effect } from "@preact/signals";
 import type { Job } from "../server/types";
 import { layer } from "../state/store";
-import { lines, picture } from "./picture";
+import { lines, picture } from "./shown_layer";
 
 /** A layer that takes longer is not waited for, ms. */
 const patience = 400;

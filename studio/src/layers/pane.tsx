@@ -4,17 +4,18 @@ import type { Job } from "../server/types";
 import { clamp_layer, slab_of } from "../state/heights";
 import { job, layer } from "../state/store";
 import { Segments } from "../shell/segments";
-import { curve } from "./curve";
-import { LayerPicture, lines, type LayerMode, mode_of, wanted_mode } from "./picture";
-import { role_colour } from "./roles";
+import { curve } from "./curves";
+import { PathChoice, PathLegend } from "./path_legend";
+import { LayerPicture, type LayerMode, mode_of, wanted_mode } from "./picture";
 import { Scrubber } from "./scrubber";
+import { lines } from "./shown_layer";
 
 const pointer = signal<[number, number] | null>(null);
 
 const modes: Record<LayerMode, { label: string; title: string }> = {
     mask: { label: "mask", title: "Coverage of the pixels" },
     contours: { label: "contours", title: "Outlines of part and supports" },
-    paths: { label: "paths", title: "Toolpaths by their role" },
+    paths: { label: "paths", title: "What the nozzle does" },
 };
 
 function Numbers({ made }: { made: Job }) {
@@ -38,7 +39,7 @@ function Numbers({ made }: { made: Job }) {
                 <dt>area</dt>
                 <dd>{area === undefined ? "–" : `${exact ? "" : "≈ "}${area.toFixed(1)} mm²`}</dd>
             </div>
-            {drawn?.paths?.seconds !== undefined && (
+            {drawn?.paths && (
                 <div>
                     <dt>time</dt>
                     <dd>{drawn.paths.seconds.toFixed(1)} s</dd>
@@ -51,21 +52,6 @@ function Numbers({ made }: { made: Job }) {
                 </div>
             )}
         </dl>
-    );
-}
-
-function Legend() {
-    const roles = [...new Set(lines.value?.paths?.paths.map((one) => one.role) ?? [])];
-    if (!roles.length) return null;
-    return (
-        <ul class="legend">
-            {roles.map((role) => (
-                <li key={role}>
-                    <i style={{ background: role_colour(role) }} />
-                    {role}
-                </li>
-            ))}
-        </ul>
     );
 }
 
@@ -106,8 +92,9 @@ export function LayerPane() {
                 />
             </header>
             <Scrubber made={made} />
+            {mode_of(made) === "paths" && <PathChoice />}
             <LayerPicture made={made} pointer={pointer} />
-            <Legend />
+            <PathLegend />
             <Numbers made={made} />
         </section>
     );

@@ -12,15 +12,14 @@ import { plane_of } from "../state/heights";
 import { job, layer } from "../state/store";
 import { draw, type Lines } from "./draw";
 import { load_mask, type Picture } from "./mask";
+import { path_look } from "./path_look";
+import { lines, picture } from "./shown_layer";
 import { current, frame, pan, pane, place_of, zoom_about } from "./window";
 
 export type LayerMode = "mask" | "contours" | "paths";
 
 /** What the user chose to see; null: what suits the machine. */
 export const wanted_mode = signal<LayerMode | null>(null);
-export const lines = signal<Lines | null>(null);
-/** The picture that is shown; null when lines are. */
-export const picture = signal<Picture | null>(null);
 
 export function mode_of(made: Job): LayerMode {
     const usual = made.process === "filament" ? "paths" : made.display ? "mask" : "contours";
@@ -44,8 +43,11 @@ async function load_lines(made: Job, k: number, mode: LayerMode, signal: AbortSi
     return { job: made.job, layer: k, contours: { part, supports } };
 }
 
+/** A layer that takes longer is given up for another one, ms: toolpaths may take seconds. */
+const patience = 300;
+
 function watch_layer(): () => void {
-    const latest = new Latest();
+    const latest = new Latest(patience);
     const stop = effect(() => {
         const made = job.value;
         if (!made || pane.value.width < 8) return;
@@ -83,6 +85,7 @@ function watch_drawing(canvas: HTMLCanvasElement): () => void {
             frame: current(made),
             picture: picture.value,
             lines: lines.value,
+            look: path_look.value,
             mark: mark && ([mark[0], mark[1]] as [number, number]),
         };
         cancelAnimationFrame(asked);

@@ -97,5 +97,11 @@ export const stop_analysis = (id: number) =>
 export const get_design = (id: number, signal: AbortSignal) =>
     get_bytes(`/api/analyses/${id}/volume`, { signal });
 
+export const get_structure = (job: Job, voxels: number, signal: AbortSignal) =>
+    get_bytes(`/api/jobs/${job.job}/structure?n=${voxels}&session=${session}`, { signal });
+
+export const get_numbers = (job: Job, of: string, voxels: number, signal: AbortSignal) =>
+    get_bytes(`/api/jobs/${job.job}/numbers?of=${encodeURIComponent(of)}&n=${voxels}&session=${session}`, { signal });
+
 export const get_modulus = (job: Job, voxels: number, signal: AbortSignal) =>
     get_bytes(`/api/jobs/${job.job}/modulus?n=${voxels}&session=${session}`, { signal });

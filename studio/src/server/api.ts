@@ -6,6 +6,7 @@ import type {
     Contours,
     Curve,
     Example,
+    Islands,
     Job,
     Machine,
     Outlook,
@@ -17,6 +18,7 @@ import type {
     PrintRequest,
     Report,
     Table,
+    Times,
     Values,
     Version,
 } from "./types";
@@ -80,10 +82,16 @@ export const get_contours = (job: Job, layer: number, what: "part" | "supports",
     get_json<Contours>(of_job(job, `layers/${layer}/contours?tolerance=0.02&what=${what}`), { signal });
 
 export const get_paths = (job: Job, layer: number, signal: Signal) =>
-    get_json<Paths>(of_job(job, `layers/${layer}/paths`), { signal });
+    get_json<Paths>(of_job(job, `layers/${layer}/paths?session=${session}`), { signal });
 
 export const get_curve = (job: Job, signal: Signal) =>
     get_json<Curve>(of_job(job, `curve?values=400&session=${session}`), { signal });
+
+export const get_islands = (job: Job, signal: Signal) =>
+    get_json<Islands>(of_job(job, `curve/islands?values=400&session=${session}`), { signal });
+
+export const get_times = (job: Job, values: number, signal: Signal) =>
+    get_json<Times>(of_job(job, `curve/time?values=${values}&session=${session}`), { signal });
 
 export const get_volume = (job: Job, voxels: number, signal: Signal) =>
     get_bytes(of_job(job, `volume?n=${voxels}&session=${session}`), { signal });

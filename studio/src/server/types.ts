@@ -92,6 +92,8 @@ export interface Change {
     value: string | null;
 }
 
+export type Structure = "skin" | "frame" | "solid" | "foam" | "body" | "supports";
+
 export interface Job {
     job: string;
     name: string;
@@ -107,6 +109,10 @@ export interface Job {
     supports: boolean;
     /** Of the foam, where it is known. */
     modulus: { predicted_MPa: [number, number] } | null;
+    /** What of the part can be told apart; empty: nothing. */
+    structure: Structure[];
+    /** Numbers that vary over the part. */
+    numbers: { name: string; unit: string }[];
     notes: string[];
     display: {
         width: number;
@@ -124,21 +130,46 @@ export interface Contours {
 export interface Path {
     role: string;
     tool: number;
+    /** The greatest of the path, mm and mm/s. */
     width: number;
     speed: number;
     closed: boolean;
+    points: number[];
+    /** Of each segment, where they vary. */
+    widths?: number[];
+    speeds?: number[];
+}
+
+export interface Travel {
+    /** Number of paths that come before it. */
+    after: number;
+    speed: number;
+    retracts: boolean;
     points: number[];
 }
 
 export interface Paths {
     paths: Path[];
-    seconds?: number;
+    travels: Travel[];
+    seconds: number;
 }
 
 export interface Curve {
     layers_a_value: number;
     area_mm2: number[];
     support_area_mm2: number[];
+}
+
+/** Pieces that begin with nothing below them, of all layers that share a value. */
+export interface Islands {
+    layers_a_value: number;
+    islands: number[];
+    pitch_mm: number;
+}
+
+export interface Times {
+    layers_a_value: number;
+    seconds: number[];
 }
 
 /** A place of a fault; its size is in a field named by its unit, such as size_mm2. */

@@ -1,12 +1,14 @@
 // window.__studio: what tests and the curious may read of the page.
 import { faults } from "../check/faults";
-import { lines, picture } from "../layers/picture";
+import { counted, curve_choice } from "../layers/curves";
+import { path_look } from "../layers/path_look";
+import { lines, picture } from "../layers/shown_layer";
 import { messages, print } from "../print/print";
 import { away } from "../server/events";
 import { building, job, layer, mistakes, tab, text } from "../state/store";
 import { homogenizing, searching } from "../stiffness/analyses";
 import { shown_design } from "../view/design";
-import { shown_scale } from "../view/paint";
+import { shown_paint } from "../view/paint";
 import { shown_voxels, stage } from "../view/shown";
 
 export interface Probe {
@@ -42,7 +44,12 @@ export const probe: Probe = {
             homogenized: homogenizing.value?.analysis ?? null,
             searched: searching.value?.analysis ?? null,
             design: shown_design.value,
-            paint: shown_scale.value,
+            paint: shown_paint.value && {
+                of: shown_paint.value.of,
+                ...(shown_paint.value.of === "structure" ? { parts: shown_paint.value.parts } : shown_paint.value.scale),
+            },
+            path_look: path_look.value,
+            curve: { of: curve_choice.value, job: counted.value?.job.job ?? null, ...(counted.value?.islands ?? counted.value?.times) },
         };
     },
 };

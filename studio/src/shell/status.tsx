@@ -1,5 +1,5 @@
 // The status line: what the recipe makes, in numbers, and what is wrong with it.
-import { curve, volume_of } from "../layers/curve";
+import { curve, volume_of } from "../layers/curves";
 import { PrintWord } from "../print/status_word";
 import {
     build_progress,

@@ -18,5 +18,12 @@ export function read_colours(): Colours {
         layer: read(style, "--view-layer"),
         fault: read(style, "--view-fault"),
         grid: read(style, "--view-grid"),
+        structure: {
+            skin: read(style, "--view-skin"),
+            frame: read(style, "--view-frame"),
+            solid: read(style, "--view-solid"),
+            foam: read(style, "--view-foam"),
+            body: read(style, "--view-part"),
+        },
     };
 }

@@ -5,7 +5,7 @@ import { get_frame } from "../server/api";
 import { Latest } from "../server/latest";
 import { job } from "../state/store";
 import { cut_axis, cut_share } from "./cut";
-import { painted } from "./paint";
+import { paint_choice } from "./paint";
 import { stage } from "./shown";
 
 const width = 640;
@@ -19,7 +19,7 @@ export function Fallback() {
             const on = stage.value;
             const axis = cut_axis.value;
             const share = cut_share.value;
-            const paint = painted.value ? "modulus" : "none";
+            const paint = paint_choice.value === "modulus" ? "modulus" : "none"; // the server paints by nothing else
             if (!made || !on) return;
             const rest = { cut: "xyz".includes(axis) ? axis : "-", cut_at: share };
             latest.run(async (signal) => {

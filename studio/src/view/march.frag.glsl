@@ -19,8 +19,11 @@ uniform bool fine;         // false while the view moves: fewer samples
 uniform float layer_z, layer_half;  // the layer that is marked
 uniform vec3 part_colour, support_colour, cut_colour, support_cut_colour, layer_colour, grid_colour;
 uniform float grid_pitch;
-uniform sampler3D paint;   // codes: 0 plain, 1 softer and 2 stiffer than asked, 3 to 255 along the scale
-uniform bool is_painted;
+// By 1: codes, 0 plain, 1 softer and 2 stiffer than asked, 3 to 255 along the scale. By 2: how far it is within skin,
+// frame and solid regions, one half at their boundaries.
+uniform sampler3D paint;
+uniform int painted_by;    // 0: nothing
+uniform vec3 skin_colour, frame_colour, solid_colour, rest_colour;
 uniform vec3 paint_lo, paint_hi;
 uniform int faults;        // boxes that are painted
 uniform vec3 fault_lo[64], fault_hi[64], fault_colour;
@@ -87,8 +90,14 @@ vec3 on_scale(float share) {  // dark blue to yellow, of even steps of lightness
 }
 
 vec3 painted(vec3 p, vec3 plain) {
-    if (!is_painted) return plain;
-    float code = floor(255.0 * texture(paint, (p - paint_lo) / (paint_hi - paint_lo)).r + 0.5);
+    if (painted_by == 0) return plain;
+    vec3 sampled = texture(paint, (p - paint_lo) / (paint_hi - paint_lo)).rgb;
+    if (painted_by == 2) {
+        if (sampled.b > 0.5) return solid_colour;
+        if (sampled.g > 0.5) return frame_colour;
+        return sampled.r > 0.5 ? skin_colour : rest_colour;
+    }
+    float code = floor(255.0 * sampled.r + 0.5);
     if (code < 0.5) return plain;
     if (code < 1.5) return vec3(0.93, 0.19, 0.19);
     if (code < 2.5) return vec3(0.95);

@@ -1,10 +1,10 @@
 // Renderer: draws a volume by ray marching with WebGL2.
 import type { PerspectiveCamera } from "three";
 import { Matrix4 } from "three";
-import type { Triple } from "../server/types";
+import type { Structure, Triple } from "../server/types";
 import { type Cut, clipped } from "./cut";
 import fragment from "./march.frag.glsl";
-import type { Paint } from "./paint";
+import { type Paint, rest_of } from "./paint";
 import vertex from "./triangle.vert.glsl";
 import type { Volume } from "./volume";
 
@@ -16,6 +16,8 @@ export interface Colours {
     layer: Triple;
     fault: Triple;
     grid: Triple;
+    /** Of the part's structure. */
+    structure: Record<Exclude<Structure, "supports">, Triple>;
 }
 
 export interface Scene {
@@ -119,7 +121,10 @@ export class Renderer {
         if (this.paint) gl.deleteTexture(this.paint.texture);
         this.paint = paint && {
             paint,
-            texture: this.texture(2, paint.size, gl.R8, gl.RED, paint.data, gl.NEAREST),
+            texture:
+                paint.of === "structure"
+                    ? this.texture(2, paint.size, gl.RGB8, gl.RGB, paint.data, gl.LINEAR)
+                    : this.texture(2, paint.size, gl.R8, gl.RED, paint.data, gl.NEAREST),
         };
     }
 
@@ -226,7 +231,7 @@ export class Renderer {
         gl.uniform1i(this.place("volume"), 0);
         gl.uniform1i(this.place("blocks"), 1);
         gl.uniform1i(this.place("paint"), 2);
-        gl.uniform1i(this.place("is_painted"), this.paint ? 1 : 0);
+        this.set_paint_colours(scene.colours);
         this.triple("paint_lo", this.paint?.paint.lo ?? volume.lo);
         this.triple("paint_hi", this.paint?.paint.hi ?? volume.hi);
         this.set_space(volume, scene);
@@ -240,6 +245,17 @@ export class Renderer {
         this.triple("fault_colour", colours.fault);
         this.set_faults(scene.faults.slice(0, most_faults));
         gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    private set_paint_colours({ structure }: Colours): void {
+        const gl = this.gl;
+        const paint = this.paint?.paint;
+        gl.uniform1i(this.place("painted_by"), !paint ? 0 : paint.of === "structure" ? 2 : 1);
+        const rest = paint?.of === "structure" ? rest_of(paint.parts) : "body";
+        this.triple("skin_colour", structure.skin);
+        this.triple("frame_colour", structure.frame);
+        this.triple("solid_colour", structure.solid);
+        this.triple("rest_colour", structure[rest]);
     }
 
     private set_faults(faults: Scene["faults"]): void {
