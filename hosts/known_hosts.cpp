@@ -179,6 +179,7 @@ std::vector<KnownHost> read_hosts(const std::string& path) {
 KnownHost find_host(const std::string& named) {
     const std::string key = environment("LAMELLA_HOST_KEY");
     const auto with_key = [&](KnownHost host) {
+        host.named = named;
         if (!key.empty()) host.access.key = key;
         return host;
     };

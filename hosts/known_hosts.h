@@ -10,6 +10,7 @@ namespace lamella {
 
 /// A host as the user named it.
 struct KnownHost {
+    std::string named;  ///< by which find_host found it
     const HostKind* kind = nullptr;
     HostAccess access;
     std::string storage;            ///< where files go; the kind's default unless given

@@ -46,6 +46,12 @@ class Sending {
         if (settings_.on_note) settings_.on_note(text);
     }
 
+    void tell_sent(std::uint64_t bytes) const {
+        if (!settings_.on_sent) return;
+        const std::optional<UploadFacts>& facts = source_->facts();
+        settings_.on_sent(bytes, facts ? std::optional(facts->size) : std::nullopt);
+    }
+
     /// Waits before the next try of what has failed for the `tries`-th time, or throws the failure.
     void wait_after(const HostError& error, int tries, bool may_repeat) const {
         if (!may_repeat || tries >= settings_.retry.attempts) throw error;
@@ -114,8 +120,8 @@ class Sending {
         for (int tries = 1;; ++tries) {
             ++report_.attempts;
             try {
-                const UploadFacts sent = host_.upload(
-                    settings_.name, *source_, settings_.on_sent ? settings_.on_sent : [](std::uint64_t) {});
+                const UploadFacts sent =
+                    host_.upload(settings_.name, *source_, [&](std::uint64_t bytes) { tell_sent(bytes); });
                 const std::optional<HostFile> file = ask([&] { return host_.find(settings_.name); });
                 // A host that tells no size has checked the upload by its hash, or by reading it.
                 if (file && agrees(*file, sent)) {

@@ -25,8 +25,9 @@ struct SendSettings {
     const CancelToken* cancel = nullptr;
     /// Called with what a person should know: retries, what was found. May be empty.
     std::function<void(const std::string& text)> on_note{};
-    /// Called with the bytes of the file sent by the present try, about. May be empty.
-    std::function<void(std::uint64_t bytes)> on_sent{};
+    /// Called with the bytes sent by the present try, and with those of the whole file where they are known
+    /// before. May be empty.
+    std::function<void(std::uint64_t bytes, std::optional<std::uint64_t> of)> on_sent{};
 };
 
 struct SendReport {

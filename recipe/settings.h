@@ -97,7 +97,7 @@ struct Section {
 std::span<const Section> sections();
 
 /// The sections that a machine's profile may have.
-inline constexpr std::array<const char*, 3> profile_sections{"printer", "support", "check"};
+inline constexpr std::array<const char*, 4> profile_sections{"printer", "support", "check", "host"};
 
 /// Whether a key of one of these sections belongs in recipes alone.
 bool belongs_in_recipe(const Setting& setting);

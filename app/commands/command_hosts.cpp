@@ -1,8 +1,10 @@
 // `lamella hosts`: the printers on the network that are known, and what they say of themselves.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "app/commands/commands.h"
@@ -11,6 +13,7 @@
 #include "app/console/text_output.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "hosts/find_hosts.h"
 #include "hosts/known_hosts.h"
 #include "hosts/watch_print.h"
 
@@ -20,6 +23,7 @@ namespace {
 
 struct HostsOptions {
     std::string host;
+    std::optional<std::string> find;  ///< address to be asked; empty: the local network
     bool json = false;
 };
 
@@ -45,6 +49,23 @@ void list_hosts(const HostsOptions& options) {
     for (const HostKind& kind : host_kinds())
         text += fmt::format("  {:10}  {}\n", kind.name, kind.description);
     write(text);
+}
+
+void search_hosts(const HostsOptions& options) {
+    constexpr double seconds = 2;
+    CancelToken cancel;
+    const InterruptGuard guard(cancel);
+    const HostSearch search = find_hosts(*options.find, seconds, &cancel);
+    if (!search.trouble.empty()) std::fputs((search.trouble + "\n").c_str(), stderr);
+    if (options.json) {
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const FoundHost& host : search.hosts)
+            list.push_back({{"host", host.named}, {"about", host.about}});
+        return write(list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    }
+    std::string text;
+    for (const FoundHost& host : search.hosts) text += host.named + "  " + host.about + "\n";
+    write(text.empty() ? "no printer has answered\n" : text);
 }
 
 void test_host(const HostsOptions& options) {
@@ -81,10 +102,19 @@ void add_hosts_command(CLI::App& root) {
     command.add_option(
         "HOST", options->host,
         "Host to be tested: a name in hosts.toml, or KIND+URL; default: list those in hosts.toml");
+    command
+        .add_option(
+            "--find", options->find,
+            "Ask the local network for printers, by mDNS and by SDCP's broadcast; or the machine at ADDRESS, "
+            "by SDCP")
+        ->type_name("[ADDRESS]")
+        ->expected(0, 1)
+        ->default_str("");
     command.add_flag("--json", options->json, "Write JSON");
     finish_command(
         command,
         "  lamella hosts\n"
+        "  lamella hosts --find\n"
         "  lamella hosts voron\n"
         "  lamella hosts moonraker+http://192.168.1.20\n"
         "~/.config/lamella/hosts.toml has a table for each host; it holds keys, so nobody else may read\n"
@@ -96,7 +126,10 @@ void add_hosts_command(CLI::App& root) {
         "  certificate = \"voron.pem\"    # to be trusted, where the host has made its own\n"
         "  done = [\"notify-send\", \"The print has ended\"]\n"
         "  webhook = \"https://example.org/print-ended\"");
-    command.callback([options] { options->host.empty() ? list_hosts(*options) : test_host(*options); });
+    command.callback([options] {
+        if (options->find) return search_hosts(*options);
+        options->host.empty() ? list_hosts(*options) : test_host(*options);
+    });
 }
 
 }  // namespace lamella

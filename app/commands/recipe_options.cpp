@@ -82,6 +82,14 @@ Recipe RecipeOptions::read(bool needs_body) const {
     return draft.finish();
 }
 
+std::string RecipeOptions::given(const std::string& flag) const {
+    std::string text;
+    for (std::size_t i = 0; i < options_.size(); ++i) {
+        if (settings()[i].flag == flag && options_[i]->count() > 0) text = texts_[i];
+    }
+    return text;
+}
+
 MachineProfiles RecipeOptions::profiles() const { return machine_profiles(profile_folder_); }
 
 void add_profile_folder_option(CLI::App& command, std::string& folder) {

@@ -25,6 +25,9 @@ class RecipeOptions {
     /// Returns the machines that the recipe can name.
     MachineProfiles profiles() const;
 
+    /// Returns the text given with a flag of the settings table, such as --host; empty when there is none.
+    std::string given(const std::string& flag) const;
+
     /// Returns the input as given; empty when there is none.
     const std::string& input() const { return input_; }
 

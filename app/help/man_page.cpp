@@ -18,6 +18,8 @@ struct FilePlace {
 };
 
 constexpr std::array file_places{
+    FilePlace{"~/.config/lamella/hosts.toml",
+              "Printers on the network, with their keys; below $XDG_CONFIG_HOME where that is set."},
     FilePlace{"~/.config/lamella/printers/*.toml",
               "The user's machine profiles; below $XDG_CONFIG_HOME where that is set."},
     FilePlace{

@@ -26,6 +26,7 @@ ServerState::ServerState(const ServerOptions& given)
       jobs(folder, events, given.threads, given.jobs),
       outputs(folder, events, given.threads),
       printer(folder, events, given.threads),
+      sending(events, given.threads),
       analyses(events),
       turns(most_computing) {
     if (!options.recipe.empty()) own_recipes.insert(folder.file(options.recipe));
@@ -35,6 +36,7 @@ ServerState::ServerState(const ServerOptions& given)
     add_layer_routes(*this);
     add_output_routes(*this);
     add_print_routes(*this);
+    add_host_routes(*this);
     add_analysis_routes(*this);
     if (options.has_page) add_page_routes(*this);
 }

@@ -15,6 +15,7 @@
 #include "app/jobs/job_store.h"
 #include "app/jobs/output_store.h"
 #include "app/server/served_printer.h"
+#include "app/server/served_sending.h"
 
 namespace lamella {
 
@@ -53,6 +54,7 @@ struct ServerState {
     JobStore jobs;
     OutputStore outputs;
     ServedPrinter printer;
+    ServedSending sending;
     AnalysisStore analyses;
     ComputeTurn::Turns turns;
     std::mutex own_recipes_mutex;
@@ -76,6 +78,7 @@ void add_job_routes(ServerState& state);
 void add_layer_routes(ServerState& state);
 void add_output_routes(ServerState& state);
 void add_print_routes(ServerState& state);
+void add_host_routes(ServerState& state);
 void add_analysis_routes(ServerState& state);
 void add_page_routes(ServerState& state);
 

@@ -207,6 +207,7 @@ struct PrinterProfile {
     LaserProfile laser;
     SupportProfile support;
     CheckProfile check;
+    std::string host;  ///< where `lamella send` sends its files: a host's name or address; empty: not known
 };
 
 }  // namespace lamella

@@ -100,6 +100,14 @@ void add_display_rows(std::vector<Setting>& t) {
         {.unit = "mm", .limits = {0, 1000}, .help = "Margin of the display that a part must not enter."}));
 }
 
+void add_host(std::vector<Setting>& t) {
+    t.push_back(row<[](Recipe & r) -> auto& { return r.printer.host; }>(
+        "host", "name", "--host",
+        {.help =
+             "Printer on the network that `lamella send` sends to: its name in hosts.toml, or its kind and "
+             "address, such as moonraker+http://voron.local. Keys never stand here."}));
+}
+
 void add_resin(std::vector<Setting>& t) {
     t.push_back(row<[](Recipe & r) -> auto& { return r.printer.resin.machine; }>(
         "printer", "machine", "--printer-machine",
@@ -226,6 +234,7 @@ void add_printer_settings(std::vector<Setting>& table) {
     add_toolpath_settings(table);
     add_gcode_settings(table);
     add_exchange_settings(table);
+    add_host(table);
 }
 
 }  // namespace lamella

@@ -477,7 +477,8 @@ std::span<const Section> sections() {
          [](const Recipe& r) { return r.printer.tools.size(); }},
         {"purge", "the tower in which the nozzle is purged after a change of tools"},
         {"output", "outputs other than layers", nullptr, false},
-        {"printer", "the machine: a profile, and changes to it"}};
+        {"printer", "the machine: a profile, and changes to it"},
+        {"host", "where the machine is on the network, for `send`", nullptr, false}};
     return list;
 }
 

@@ -10,6 +10,7 @@ import { make_analyses, modulus_volume, structure_volume } from "./analyses.mjs"
 import { examples, find_setting, machines, table } from "./catalog.mjs";
 import { build_job, check, objection, read_values } from "./jobs.mjs";
 import * as draw from "./layers.mjs";
+import { make_hosts } from "./hosts.mjs";
 import { make_printer, ports } from "./print.mjs";
 import { edit_toml } from "./toml.mjs";
 
@@ -80,12 +81,13 @@ export function make_mock({
         }
     };
 
-    const printer = make_printer(
-        (status, message) => {
-            throw new Refusal(status, message);
-        },
-        (event, data) => new Set(state.streams.values()).forEach((session) => send_event(session, event, data)),
-    );
+    const refuse = (status, message) => {
+        throw new Refusal(status, message);
+    };
+    const send_to_all = (event, data) =>
+        new Set(state.streams.values()).forEach((session) => send_event(session, event, data));
+    const printer = make_printer(refuse, send_to_all);
+    const hosts = make_hosts(refuse, send_to_all);
 
     const analyses = make_analyses(send_event);
     const routes = {
@@ -168,6 +170,7 @@ export function make_mock({
             return start_output(job, JSON.parse(await read_body(request)));
         if (method === "POST" && rest[0] === "print")
             return printer.start(job, JSON.parse(await read_body(request)));
+        if (method === "POST" && rest[0] === "send") return hosts.send(job, JSON.parse(await read_body(request)));
         if (method === "POST" && rest[0] === "homogenize")
             return { status: 202, reply: analyses.homogenize(job, JSON.parse(await read_body(request))) };
         if (method === "DELETE") return {};
@@ -295,6 +298,8 @@ export function make_mock({
             reply = await job_reply(url, request.method, request, response);
         else if (/^\/api\/print(\/|$)/.test(url.pathname))
             reply = printer.reply(request.method, url.pathname.split("/")[3] ?? "");
+        else if (/^\/api\/(hosts|sending)(\/|$)/.test(url.pathname))
+            reply = hosts.reply(request.method, url.pathname.split("/").slice(2));
         else if (url.pathname.startsWith("/api/outputs/"))
             reply = output_reply(url, request.method, response);
         else if (url.pathname.startsWith("/api/sessions/")) reply = {};
@@ -322,6 +327,7 @@ export function make_mock({
         });
     });
     server.on("close", printer.stop);
+    server.on("close", hosts.stop);
     return { server, token, state, printer };
 }
 

@@ -6,6 +6,7 @@ import "uplot/dist/uPlot.min.css";
 import { App } from "./app";
 import { check_progress } from "./check/check_panel";
 import { ask_again, take_output } from "./make/outputs";
+import { ask_for_sending, take_sending } from "./print/network";
 import { ask_for_print, take_message, take_print } from "./print/print";
 import { end_session, get_examples, get_machines, get_recipe, get_table, get_version } from "./server/api";
 import { away, listen } from "./server/events";
@@ -61,6 +62,7 @@ async function load(): Promise<boolean> {
         });
         refresh();
         void ask_for_print();
+        void ask_for_sending();
     } catch (error) {
         if (error instanceof Failure && error.status === 0) away.value = true;
         report(error);
@@ -89,6 +91,7 @@ const listener = {
         refresh(); // a server that was started anew has lost its jobs
         void ask_again();
         void ask_for_print();
+        void ask_for_sending();
         void ask_analyses_again();
     },
     progress: ({ what, done, of, text: doing }: Progress) => {
@@ -98,6 +101,7 @@ const listener = {
     output: take_output,
     print: take_print,
     print_message: take_message,
+    sending: take_sending,
     analysis: take_analysis,
 };
 void load().then((welcome) => {

@@ -1,9 +1,10 @@
-// Print: to a machine of G-code over a serial port, while later layers are computed.
+// Print: to a machine of G-code over a serial port, while later layers are computed; or to a printer on the network.
 import { useEffect, useRef } from "preact/hooks";
 import { MachineSelect } from "../form/machine_select";
 import { edit } from "../state/recipe";
 import { job, values } from "../state/store";
 import { messages, print, running } from "./print";
+import { NetworkPart } from "./network_part";
 import { follow_outlook, outlook } from "./setup";
 import { StartForm } from "./start_form";
 import { StateCard } from "./state_card";
@@ -63,6 +64,7 @@ export function PrintPanel() {
                 <h2>Print</h2>
                 {shown && <StateCard shown={shown} />}
                 {!running.value && <Start />}
+                <NetworkPart />
                 <Log />
             </div>
         </div>

@@ -6,6 +6,8 @@ import { start } from "./print";
 import { bauds, change_setup, place_of, ports, refresh_ports, request_of, setup } from "./setup";
 
 const typed = "typed";
+/** As the server describes such a port, which has no speed. */
+const klipper_socket = "API socket of Klipper";
 
 const name_of = (port: Port): string => port.by_id || port.path;
 
@@ -113,6 +115,7 @@ export function StartForm({ outlook, layers }: { outlook: Outlook; layers: numbe
     const { port, baud, park } = setup.value;
     const may_start = port.trim() !== "" && (park.trim() === "" || place_of(park) !== null);
     const can_resume = left?.is_of_job === true;
+    const is_socket = ports.value?.find((one) => name_of(one) === port)?.description === klipper_socket;
     return (
         <form
             onSubmit={(event) => {
@@ -122,20 +125,22 @@ export function StartForm({ outlook, layers }: { outlook: Outlook; layers: numbe
             }}
         >
             <PortRow />
-            <div class="print-row">
-                <label for="print-baud">Baud</label>
-                <select
-                    id="print-baud"
-                    value={baud}
-                    onChange={(event) => change_setup({ baud: Number(event.currentTarget.value) })}
-                >
-                    {bauds.map((one) => (
-                        <option key={one} value={one}>
-                            {one}
-                        </option>
-                    ))}
-                </select>
-            </div>
+            {!is_socket && (
+                <div class="print-row">
+                    <label for="print-baud">Baud</label>
+                    <select
+                        id="print-baud"
+                        value={baud}
+                        onChange={(event) => change_setup({ baud: Number(event.currentTarget.value) })}
+                    >
+                        {bauds.map((one) => (
+                            <option key={one} value={one}>
+                                {one}
+                            </option>
+                        ))}
+                    </select>
+                </div>
+            )}
             <MoreRows />
             {left && <p class="print-left">{left_text(left)}</p>}
             <div class="print-buttons">

@@ -6,6 +6,9 @@ import type {
     Contours,
     Curve,
     Example,
+    Host,
+    HostFacts,
+    HostStatus,
     Islands,
     Job,
     Machine,
@@ -17,6 +20,7 @@ import type {
     PrintMessage,
     PrintRequest,
     Report,
+    Sending,
     Table,
     Times,
     Values,
@@ -128,6 +132,16 @@ export const get_ports = () => get_json<Port[]>("/api/ports");
 export const get_outlook = (job: Job, signal: Signal) => get_json<Outlook>(of_job(job, "print"), { signal });
 export const start_print = (job: Job, request: PrintRequest) =>
     get_json<Print>(of_job(job, "print"), { method: "POST", json: request });
+export const get_hosts = () => get_json<{ file: string; hosts: Host[] }>("/api/hosts");
+const of_host = (name: string, what = "") => `/api/hosts/${encodeURIComponent(name)}${what}`;
+export const get_host = (name: string, signal: Signal) => get_json<HostFacts>(of_host(name), { signal });
+export const get_host_status = (name: string) => get_json<HostStatus>(of_host(name, "/status"));
+export const order_host = (name: string, what: "pause" | "resume" | "cancel") =>
+    get_json<HostStatus>(of_host(name, `/${what}`), { method: "POST", json: {} });
+export const send_job = (job: Job, host: string, start: boolean) =>
+    get_json<Sending>(of_job(job, "send"), { method: "POST", json: { host, start } });
+export const get_sending = () => get_json<Sending | { state: "none" }>("/api/sending");
+export const cancel_sending = () => get_json<Sending>("/api/sending", { method: "DELETE" });
 export const get_print = () => get_json<Print | { state: "none" }>("/api/print");
 export const get_print_messages = () => get_json<PrintMessage[]>("/api/print/messages");
 export const order_print = (what: "pause" | "resume" | "stop" | "halt") =>

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import type { News } from "./analysis";
 import { with_token } from "./http";
 import { session } from "./token";
-import type { Output, Print, PrintMessage, Progress } from "./types";
+import type { Output, Print, PrintMessage, Progress, Sending } from "./types";
 
 /** Whether the line to the server is broken. EventSource tries again by itself. */
 export const away = signal(false);
@@ -16,6 +16,7 @@ export interface Listener {
     print(print: Print): void;
     print_message(message: PrintMessage): void;
     analysis(news: News): void;
+    sending(sending: Sending): void;
 }
 
 /** How long a closed line stays closed until it is opened anew, ms. */
@@ -35,6 +36,7 @@ export function listen(listener: Listener): void {
         listener.print_message(JSON.parse(event.data) as PrintMessage),
     );
     stream.addEventListener("analysis", (event) => listener.analysis(JSON.parse(event.data) as News));
+    stream.addEventListener("sending", (event) => listener.sending(JSON.parse(event.data) as Sending));
     stream.addEventListener("error", () => {
         away.value = true;
         if (stream.readyState !== EventSource.CLOSED) return;

@@ -268,6 +268,48 @@ export interface PrintMessage {
     text: string;
 }
 
+/** A printer on the network that the user's file of hosts names. */
+export interface Host {
+    name: string;
+    kind: string;
+    url: string;
+}
+
+export interface HostStatus {
+    state: "offline" | "idle" | "busy" | "printing" | "paused" | "finished" | "cancelled" | "failed";
+    file: string;
+    /** 0 to 1. */
+    progress?: number;
+    layer?: number;
+    layers?: number;
+    left_s?: number;
+    heaters?: { name: string; now: number; target: number }[];
+    message?: string;
+}
+
+export interface HostFacts {
+    software: string;
+    machine: string;
+    encrypted: boolean;
+    free_bytes?: number;
+    status: HostStatus;
+}
+
+/** A job on its way to a host. */
+export interface Sending {
+    state: "running" | "done" | "failed" | "cancelled";
+    sending: number;
+    job: string;
+    host: string;
+    file: string;
+    layers: number;
+    of_layers: number;
+    bytes: number;
+    of_bytes: number | null;
+    prints: boolean;
+    message: string;
+}
+
 export interface Progress {
     what: "build" | "check" | "output";
     id: number | null;

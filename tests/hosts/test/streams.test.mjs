@@ -64,6 +64,13 @@ test('a resin file for a machine that does not know it is refused before its fir
   assert.equal(standin.files.size, 0);
 });
 
+test('a machine is found by the search of SDCP', async (t) => {
+  await start(t, hosts.find((host) => host.kind === 'sdcp'));
+  const { code, out, error } = await run(['hosts', '--find', '127.0.0.1', '--json'], temporary);
+  assert.equal(code, 0, error);
+  assert.deepEqual(JSON.parse(out), [{ host: 'sdcp+http://127.0.0.1', about: 'stand-in, Stand-in 8K' }]);
+});
+
 /** A certificate for 127.0.0.1, made by the machine itself. */
 function makeCertificate(name) {
   const key = path.join(temporary, `${name}.key`);
