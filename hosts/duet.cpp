@@ -56,7 +56,7 @@ class Duet : public NetworkHost {
 
     UploadFacts upload(const std::string& name, UploadSource& source,
                        const std::function<void(std::uint64_t)>& on_sent) override {
-        const UploadFacts facts = source.facts().value();
+        UploadFacts facts = source.facts().value();
         const std::string path = url_component(path_of(name));
         const bool computer = has_computer();
         // The body is opened anew for a session that has to begin again.

@@ -25,6 +25,7 @@ void run_command(const std::vector<std::string>& command, const std::vector<std:
     environment.push_back(nullptr);
     std::vector<std::string> words = command;
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t process = 0;

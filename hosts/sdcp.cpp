@@ -128,7 +128,7 @@ class Sdcp : public NetworkHost {
 
     UploadFacts upload(const std::string& name, UploadSource& source,
                        const std::function<void(std::uint64_t)>& on_sent) override {
-        const UploadFacts facts = source.facts().value();
+        UploadFacts facts = source.facts().value();
         const std::string id = facts.md5.substr(0, 24) + fmt::format("{:08x}", ++uploads_);
         connect();
         const std::unique_ptr<UploadBytes> bytes = source.open();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "hosts/wait.h"
@@ -40,7 +41,7 @@ std::string status_text(const HostStatus& status) {
         if (status.layers) text += fmt::format(" of {}", *status.layers);
     }
     if (status.left && is_active(status.state)) {
-        const auto minutes = static_cast<long long>(*status.left / 60 + 0.5);
+        const auto minutes = std::llround(*status.left / 60);
         text += fmt::format(", {}:{:02} h left", minutes / 60, minutes % 60);
     }
     for (const HostHeater& heater : status.heaters) {

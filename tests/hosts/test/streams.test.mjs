@@ -9,7 +9,7 @@ import { hosts, makeConfig, makeFile, newKey, quick, run, start, temporary } fro
 const moonraker = hosts.find((host) => host.kind === 'moonraker');
 const octoprint = hosts.find((host) => host.kind === 'octoprint');
 const repeats = Number(process.env.LAMELLA_HOST_STREAMS ?? 3);
-const part = ['--shape', 'sphere', '--shape-radius', '6', '--cell', '2', '--beam', '0.6', '--printer', 'marlin'];
+const part = ['--shape', 'sphere', '--shape-radius', '4', '--cell', '2', '--beam', '0.6', '--printer', 'marlin'];
 
 /** The file that `lamella slice` writes. */
 async function sliced(name) {
