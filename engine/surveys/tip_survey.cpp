@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -15,48 +16,12 @@
 #include "engine/base/number_format.h"
 #include "engine/layers/survey_rows.h"
 #include "engine/runs/row_sets.h"
+#include "engine/surveys/tip_pieces.h"
 
 namespace lamella {
 namespace {
 
-using Node = std::uint32_t;
-
-/// Returns the part of the rows that rectangles within them cover, of so many rows and so long, run units.
-RunRows opened(const RunRows& rows, int height, std::int32_t length) {
-    const auto lines = static_cast<int>(rows.lines());
-    RunRows inner = rows, outer;
-    for (int k = 1; k < height; ++k) {
-        RunRows next;
-        for (int l = 0; l < lines; ++l) {
-            const bool has_next = l + k < lines;
-            const auto line = has_next ? rows.line(static_cast<std::size_t>(l + k)) : std::span<const Run>();
-            intersect_line(inner.line(static_cast<std::size_t>(l)), line, next);
-        }
-        inner = std::move(next);
-    }
-    for (int l = 0; l < lines; ++l) {
-        std::vector<Run> line;
-        for (int k = std::max(l - height + 1, 0); k <= l; ++k) {
-            for (const Run& run : inner.line(static_cast<std::size_t>(k))) {
-                if (run.end - run.begin >= length) line.push_back(run);
-            }
-        }
-        std::ranges::sort(line, {}, &Run::begin);
-        for (const Run& run : line) outer.push(run.begin, run.end);
-        outer.end_line();
-    }
-    return outer;
-}
-
-/// The pieces of a layer that hold, and the slivers beside them, which touch some of these, or none.
-struct LayerPieces {
-    RunRows rows;
-    LabelledLayer firm, slivers;
-    std::vector<std::vector<std::uint32_t>> beside{};  ///< by sliver: the firm pieces that it touches
-    std::vector<Node> firm_nodes{}, sliver_nodes{};    ///< that the components belong to
-
-    int rows_count() const { return static_cast<int>(rows.lines()); }
-};
+using Node = TipNode;
 
 struct PiecesProduct : LayerProduct {
     LayerPieces pieces;
@@ -66,62 +31,16 @@ struct PiecesProduct : LayerProduct {
 struct GrowingTip {
     HangingTip found;
     double volume = 0;
-    bool is_high = false;
-    std::vector<PlacedRun> runs{};  ///< grown; none once it is high
+    bool is_high = false, stays = false, hangs_by_hair = false;
+    std::vector<Node> lies_on{}, beside{};  ///< what it touches where it begins, by too little to be held
+    std::vector<PlacedRun> runs{};          ///< grown; none once it is high
 };
-
-/// Calls visit(a, b) for the components of two layers whose runs overlap or touch, in the same row or the
-/// next.
-template <typename Visit>
-void for_touching_pieces(const LabelledLayer& a, const LabelledLayer& b, const Visit& visit) {
-    for (int r = a.first_row; r < a.first_row + a.rows(); ++r) {
-        if (a.row(r).empty()) continue;
-        for (const int aside : {-1, 0, 1}) {
-            for_touching(a.row(r), b.row(r + aside), [&](const LabelledRun& run, const LabelledRun& other) {
-                visit(run.component, other.component);
-            });
-        }
-    }
-}
 
 template <typename T>
 void sort_out(std::vector<T>& list) {
     std::ranges::sort(list);
     const auto rest = std::ranges::unique(list);
     list.erase(rest.begin(), rest.end());
-}
-
-/// Makes one line of the runs, which come in any order.
-RunRows line_of(std::vector<Run> runs) {
-    std::ranges::sort(runs, {}, &Run::begin);
-    RunRows line;
-    for (const Run& run : runs) line.push(run.begin, run.end);
-    line.end_line();
-    return line;
-}
-
-/// Calls visit(run) for the runs of a row that belong to a node, or for all others.
-template <typename Visit>
-void for_runs(const LayerPieces& layer, int row, Node node, bool own, const Visit& visit) {
-    for (const LabelledRun& run : layer.firm.row(row)) {
-        if ((layer.firm_nodes[run.component] == node) == own) visit(run);
-    }
-    for (const LabelledRun& run : layer.slivers.row(row)) {
-        if ((layer.sliver_nodes[run.component] == node) == own) visit(run);
-    }
-}
-
-/// Returns the part of row r that a node's runs cover once they are grown by a pixel and a row, kept off the
-/// others of that row.
-RunRows grown_row(const LayerPieces& layer, Node node, int r) {
-    std::vector<Run> grown, others, own;
-    const auto into = [](std::vector<Run>& list, std::int32_t by) {
-        return [&list, by](const LabelledRun& run) { list.push_back({run.begin - by, run.end + by}); };
-    };
-    for (const int aside : {-1, 0, 1}) for_runs(layer, r + aside, node, true, into(grown, run_unit));
-    for_runs(layer, r, node, false, into(others, run_unit / 2));
-    for_runs(layer, r, node, true, into(own, 0));
-    return united(without(line_of(std::move(grown)), line_of(std::move(others))), line_of(std::move(own)));
 }
 
 class TipSurveyor : public LayerPass {
@@ -143,7 +62,11 @@ class TipSurveyor : public LayerPass {
     using Contact = std::pair<std::uint32_t, Node>;
 
     std::vector<Contact> contacts_with_below(const LayerPieces& layer) const;
-    std::vector<Contact> firm_contacts(const LayerPieces& layer) const;
+    void add_firm_contacts(const LayerPieces& layer, const RunRows& overlap,
+                           std::vector<Contact>& contacts) const;
+    void add_sliver_contacts(const LayerPieces& layer, const RunRows& overlap,
+                             std::vector<Contact>& contacts) const;
+    std::vector<Contact> holding_contacts(const LayerPieces& layer) const;
     void own_pieces(LayerPieces& layer);
     void joint(Node a, Node b);
     void include(Node number, const LayerPieces& pieces, const Layer& layer);
@@ -151,8 +74,12 @@ class TipSurveyor : public LayerPass {
                    std::pair<int, int> rows);
     void forget_runs(GrowingTip& tip);
     bool is_tip(Node node) const { return node >= held_; }
-    bool is_low(Node node) const { return is_tip(node) && !tips_.at(node).is_high; }
-    std::vector<Node> tips_that_hold_together();
+    /// 0 for what is held, 1 for tips that begin on a hair, 2 for those that begin in the air.
+    int rank(Node node) const { return !is_tip(node) ? 0 : tips_.at(node).lies_on.empty() ? 2 : 1; }
+    bool may_go(Node node) const { return is_tip(node) && !tips_.at(node).stays; }
+    void keep_what_others_lie_on();
+    void keep_what_holds_together();
+    void find_held_by_hairs();
 
     const LayerPlan& plan_;
     const TipSurveyOptions& options_;
@@ -171,15 +98,7 @@ std::unique_ptr<LayerProduct> TipSurveyor::render(const Layer& layer) const {
     auto product = std::make_unique<PiecesProduct>();
     LayerPieces& pieces = product->pieces;
     Scratch scratch;
-    pieces.rows = all_rows(layer.part(), band_, scratch);
-    const RunRows firm = opened(pieces.rows, least_rows_, least_length_);
-    pieces.firm = label_layer(firm, layer.index(), Growth{});
-    pieces.slivers = label_layer(without(pieces.rows, firm), layer.index(), Growth{});
-    pieces.beside.resize(pieces.slivers.components.size());
-    for_touching_pieces(pieces.slivers, pieces.firm, [&](std::uint32_t sliver, std::uint32_t piece) {
-        pieces.beside[sliver].push_back(piece);
-    });
-    for (auto& list : pieces.beside) sort_out(list);
+    pieces = tip_pieces(all_rows(layer.part(), band_, scratch), layer.index(), least_rows_, least_length_);
     product->area =
         static_cast<double>(pieces.rows.total_length()) / run_unit * options_.pitch * options_.pitch;
     return product;
@@ -208,11 +127,9 @@ std::vector<TipSurveyor::Contact> TipSurveyor::contacts_with_below(const LayerPi
     return contacts;
 }
 
-/// Returns which firm piece lies on which node by enough to be held.
-std::vector<TipSurveyor::Contact> TipSurveyor::firm_contacts(const LayerPieces& layer) const {
-    std::vector<Contact> contacts;
-    if (below_.rows.lines() == 0) return contacts;
-    const RunRows overlap = opened(common(layer.rows, below_.rows), least_rows_, least_length_);
+/// Adds which firm piece shares something firm with which node.
+void TipSurveyor::add_firm_contacts(const LayerPieces& layer, const RunRows& overlap,
+                                    std::vector<Contact>& contacts) const {
     for (std::size_t l = overlap.line_with_runs(0); l < overlap.lines(); l = overlap.line_with_runs(l + 1)) {
         const int r = static_cast<int>(l);
         const auto runs = overlap.line(l);
@@ -225,6 +142,40 @@ std::vector<TipSurveyor::Contact> TipSurveyor::firm_contacts(const LayerPieces& 
             contacts.emplace_back(pieces[number(run)], below_.firm_nodes[piece.component]);
         });
     }
+}
+
+/// Adds which sliver without a firm piece lies on which node with half of its area.
+void TipSurveyor::add_sliver_contacts(const LayerPieces& layer, const RunRows& overlap,
+                                      std::vector<Contact>& contacts) const {
+    const auto firm_count = static_cast<std::uint32_t>(layer.firm.components.size());
+    std::map<Contact, std::int64_t> lengths;
+    for (std::size_t l = overlap.line_with_runs(0); l < overlap.lines(); l = overlap.line_with_runs(l + 1)) {
+        const int r = static_cast<int>(l);
+        for (const LabelledRun& sliver : layer.slivers.row(r)) {
+            if (!layer.beside[sliver.component].empty()) continue;
+            std::vector<Run> shared;
+            for (const Run& run : overlap.line(l)) {
+                const Run part{std::max(run.begin, sliver.begin), std::min(run.end, sliver.end)};
+                if (part.begin < part.end) shared.push_back(part);
+            }
+            for_nodes(below_, r, shared, [&](const Run& run, Node node) {
+                lengths[{firm_count + sliver.component, node}] += run.end - run.begin;
+            });
+        }
+    }
+    for (const auto& [contact, length] : lengths) {
+        if (2 * length >= layer.slivers.components[contact.first - firm_count].length)
+            contacts.push_back(contact);
+    }
+}
+
+/// Returns which piece lies on which node by enough to be held, each once.
+std::vector<TipSurveyor::Contact> TipSurveyor::holding_contacts(const LayerPieces& layer) const {
+    std::vector<Contact> contacts;
+    if (below_.rows.lines() == 0) return contacts;
+    const RunRows overlap = common(layer.rows, below_.rows);
+    add_firm_contacts(layer, opened(overlap, least_rows_, least_length_), contacts);
+    add_sliver_contacts(layer, overlap, contacts);
     sort_out(contacts);
     return contacts;
 }
@@ -242,31 +193,49 @@ void TipSurveyor::joint(Node a, Node b) {
 /// Gives each component of a layer to its node.
 void TipSurveyor::own_pieces(LayerPieces& layer) {
     const bool is_lowest = sets_.size() == 0;
+    const auto first_new = static_cast<Node>(sets_.size());
     const std::vector<Contact> touching = contacts_with_below(layer);
-    const std::vector<Contact> holding = options_.contact > 0 ? firm_contacts(layer) : touching;
+    const std::vector<Contact> holding = options_.contact > 0 ? holding_contacts(layer) : touching;
     const auto of = [](const std::vector<Contact>& contacts, std::uint32_t piece) {
         return std::ranges::equal_range(contacts, piece, {}, &Contact::first);
     };
-    const auto own = [&](std::uint32_t piece, const std::vector<Contact>& holds) {
-        const auto held_by = of(holds, piece);
-        const Node node = held_by.empty() ? sets_.add() : held_by.front().second;
-        if (is_lowest) held_ = node + 1;
+    const auto own = [&](std::uint32_t piece) {
+        const auto held_by = of(holding, piece);
+        if (!held_by.empty()) {
+            return std::ranges::min(held_by, {},
+                                    [&](const Contact& contact) {
+                                        return std::pair(rank(contact.second), contact.second);
+                                    })
+                .second;
+        }
+        const Node node = sets_.add();
+        if (is_lowest) {
+            held_ = node + 1;
+        } else {
+            for (const auto& [same, below] : of(touching, piece)) tips_[node].lies_on.push_back(below);
+        }
         return node;
     };
     const auto firm_count = static_cast<std::uint32_t>(layer.firm.components.size());
-    for (std::uint32_t i = 0; i < firm_count; ++i) layer.firm_nodes.push_back(own(i, holding));
+    for (std::uint32_t i = 0; i < firm_count; ++i) layer.firm_nodes.push_back(own(i));
     for (std::uint32_t i = 0; i < layer.beside.size(); ++i) {
-        Node node = 0;
-        for (const std::uint32_t piece : layer.beside[i]) node = std::max(node, layer.firm_nodes[piece]);
-        layer.sliver_nodes.push_back(layer.beside[i].empty() ? own(firm_count + i, touching) : node);
+        Node node = std::numeric_limits<Node>::max();
+        for (const std::uint32_t piece : layer.beside[i]) node = std::min(node, layer.firm_nodes[piece]);
+        layer.sliver_nodes.push_back(layer.beside[i].empty() ? own(firm_count + i) : node);
     }
     const auto node_of = [&](std::uint32_t piece) {
         return piece < firm_count ? layer.firm_nodes[piece] : layer.sliver_nodes[piece - firm_count];
     };
     for (const auto& [piece, node] : touching) joint(node_of(piece), node);
     for (std::uint32_t i = 0; i < layer.beside.size(); ++i) {
-        for (const std::uint32_t piece : layer.beside[i])
-            joint(layer.sliver_nodes[i], layer.firm_nodes[piece]);
+        for (const std::uint32_t piece : layer.beside[i]) {
+            const Node node = layer.firm_nodes[piece];
+            joint(layer.sliver_nodes[i], node);
+            if (is_lowest || node < first_new) continue;
+            for (const std::uint32_t other : layer.beside[i]) {
+                if (layer.firm_nodes[other] != node) tips_[node].beside.push_back(layer.firm_nodes[other]);
+            }
+        }
     }
 }
 
@@ -284,10 +253,9 @@ void TipSurveyor::write(const Layer& layer, LayerProduct& product) {
 /// Adds what a layer has of a tip.
 void TipSurveyor::include(Node number, const LayerPieces& pieces, const Layer& layer) {
     const int index = layer.index();
-    const auto [at, is_new] = tips_.try_emplace(number);
-    GrowingTip& tip = at->second;
+    GrowingTip& tip = tips_[number];
     HangingTip& found = tip.found;
-    if (is_new) found.first_layer = index;
+    if (found.end_layer == 0) found.first_layer = index;
     found.end_layer = index + 1;
     found.height = plan_.height(found.first_layer, found.end_layer);
     std::int64_t length = 0;
@@ -311,10 +279,10 @@ void TipSurveyor::include(Node number, const LayerPieces& pieces, const Layer& l
     }
     constexpr double rounding = 1e-9;
     if (index > found.first_layer && found.height > options_.height + rounding) {
-        tip.is_high = true;
+        tip.is_high = tip.stays = true;
         forget_runs(tip);
     } else {
-        keep_runs(tip, number, pieces, index, {first - 1, last + 1});
+        keep_runs(tip, number, pieces, index, {first - tip_growth, last + tip_growth});
     }
 }
 
@@ -338,40 +306,72 @@ void TipSurveyor::forget_runs(GrowingTip& tip) {
     tip.runs = {};
 }
 
-/// Returns the low tips that connect what would be apart without them, ascending.
-std::vector<Node> TipSurveyor::tips_that_hold_together() {
-    DisjointSets groups(sets_.size());  // of low tips that touch
+/// Tips that stay keep those by which they hang together with what is held, however little that is.
+void TipSurveyor::keep_what_others_lie_on() {
+    std::vector<Node> open;
+    for (const auto& [node, tip] : tips_) {
+        if (tip.stays) open.push_back(node);
+    }
+    while (!open.empty()) {
+        const GrowingTip& tip = tips_.at(open.back());
+        open.pop_back();
+        for (const auto* list : {&tip.lies_on, &tip.beside}) {
+            for (const Node node : *list) {
+                if (!may_go(node)) continue;
+                tips_.at(node).stays = true;
+                open.push_back(node);
+            }
+        }
+    }
+}
+
+/// Finds the tips that hang together with what is held where they begin, by too little to be held by it.
+void TipSurveyor::find_held_by_hairs() {
+    const auto is_held = [&](Node node) { return !is_tip(node) || tips_.at(node).hangs_by_hair; };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (auto& [node, tip] : tips_) {
+            if (tip.hangs_by_hair ||
+                (std::ranges::none_of(tip.lies_on, is_held) && std::ranges::none_of(tip.beside, is_held)))
+                continue;
+            tip.hangs_by_hair = changed = true;
+        }
+    }
+}
+
+/// Keeps the tips that connect what would be apart without them.
+void TipSurveyor::keep_what_holds_together() {
+    DisjointSets groups(sets_.size());  // of tips that may go and touch
     for (const auto& [a, b] : joints_) {
-        if (is_low(a) && is_low(b)) groups.join(a, b);
-        if (!is_low(a) && !is_low(b)) sets_.join(a, b);
+        if (may_go(a) && may_go(b)) groups.join(a, b);
+        if (!may_go(a) && !may_go(b)) sets_.join(a, b);
     }
     std::map<Node, std::vector<Node>> touched;  // what stays beside each group
     for (const auto& [a, b] : joints_) {
-        if (is_low(a) == is_low(b)) continue;
-        const auto [low, stays] = is_low(a) ? std::pair(a, b) : std::pair(b, a);
-        touched[groups.find(low)].push_back(stays);
+        if (may_go(a) == may_go(b)) continue;
+        const auto [goes, stays] = may_go(a) ? std::pair(a, b) : std::pair(b, a);
+        touched[groups.find(goes)].push_back(stays);
     }
-    std::vector<Node> holding;
+    std::set<Node> holding;
     for (const auto& [group, stays] : touched) {
         bool joins = false;
         for (const Node node : stays) joins |= sets_.join(stays.front(), node);
-        if (joins) holding.push_back(group);
+        if (joins) holding.insert(group);
     }
-    std::vector<Node> tips;
-    for (const auto& [node, tip] : tips_) {
-        if (!tip.is_high && std::ranges::binary_search(holding, groups.find(node))) tips.push_back(node);
-    }
-    return tips;
+    for (auto& [node, tip] : tips_) tip.stays |= holding.contains(groups.find(node));
 }
 
 TipSurvey TipSurveyor::result() {
     TipSurvey survey;
-    const std::vector<Node> holding = tips_that_hold_together();
+    find_held_by_hairs();
+    keep_what_others_lie_on();
+    keep_what_holds_together();
+    keep_what_others_lie_on();
     std::vector<PlacedRun> runs;
     for (auto& [node, tip] : tips_) {
-        const bool holds = std::ranges::binary_search(holding, node);
-        if (tip.is_high || holds) {
-            ++(holds ? survey.holding : survey.higher);
+        if (tip.is_high && tip.hangs_by_hair) continue;
+        if (tip.stays) {
+            ++(tip.is_high ? survey.higher : survey.holding);
             survey.kept.push_back(tip.found);
         } else {
             ++survey.trimmed;

@@ -31,28 +31,30 @@ struct TipSurveyOptions : PassControl {
 struct TipSurvey {
     std::size_t trimmed = 0;       ///< tips that are to be removed
     double volume = 0;             ///< of them, mm^3
-    std::size_t higher = 0;        ///< tips that stay because they are too high
+    std::size_t higher = 0;        ///< tips that begin in the air and stay because they are too high
     std::size_t holding = 0;       ///< tips that stay because pieces of the part hang together by them alone
     std::vector<HangingTip> kept;  ///< the highest few of those that stay
-    /// Runs of the tips that are to be removed, grown by a pitch within their layers. Never null. Layer l of
-    /// the job lies between heights l and l + 1 of the boxes' grid.
+    /// Runs of the tips that are to be removed, grown by two pitches within their layers. Never null. Layer l
+    /// of the job lies between heights l and l + 1 of the boxes' grid.
     std::shared_ptr<const RunBoxes> removed;
 };
 
 /// Surveys all layers of a job, which are one stack, at their cutting planes: exact along x, with one row per
 /// `pitch` in y. The lowest layer that holds anything is held by the bed.
 ///
-/// Rectangles of `contact` along the rows, and of so much across as to hold three rows or more, tell what is
-/// firm: a morphological opening. The pieces of a layer are the connected components of what is firm, and of
-/// the slivers left beside it. A sliver that touches firm pieces belongs to the youngest of them. A firm
-/// piece is held by pieces of the layer below with which it shares something firm, other slivers by whatever
-/// they touch: overlapping or touching runs in the same row or the next. With a `contact` of 0 all is firm,
-/// and held by whatever it touches.
+/// Rectangles of `contact` along the rows, and of so many rows as to be as wide, tell what is firm: a
+/// morphological opening. The pieces of a layer are the connected components of what is firm, and of the
+/// slivers left beside it. A sliver that touches firm pieces belongs to the oldest of them. A firm piece is
+/// held by pieces of the layer below with which it shares something firm, a sliver by itself by one on which
+/// half of it lies. With a `contact` of 0 all is firm, and held by whatever it touches: overlapping or
+/// touching runs in the same row or the next.
 ///
 /// A piece belongs to the oldest of the tips that hold it, or to what is held, which is older than all tips;
-/// if nothing holds it, it begins a tip. So tips end where they join something older. Tips of one layer, or
-/// as high as `height` at most, are to be removed, unless pieces of the part that are connected would be
-/// connected no more: of several such tips that touch each other, all stay.
+/// if nothing holds it, it begins a tip. Tips that begin on less than what holds count as older than those
+/// that begin in the air. So tips end where they join something older. Tips of one layer, or as high as
+/// `height` at most, are to be removed, unless pieces of the part that are connected would be connected no
+/// more, or a tip that stays begins on them or beside them: of several such tips that touch each other, all
+/// stay.
 ///
 /// Every piece that stays is held by one that stays, unless it began a tip before. So removing tips makes no
 /// new ones, and takes away nothing but what hung. Grown runs keep off other pieces of the layer: between
