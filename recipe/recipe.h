@@ -242,6 +242,7 @@ struct RepairRecipe {
     double thickness = 0;  ///< walls thinner than this within a layer are thickened to it
     double gap = 0;        ///< gaps narrower than this within a layer are filled
     double join = 0;       ///< diameter of struts that join disconnected pieces
+    double trim = -1;      ///< tips that begin in the air are removed if no higher than this; negative: usual
 };
 
 /// The kind of supports; their dimensions are part of the printer's profile.

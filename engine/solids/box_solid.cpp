@@ -54,6 +54,28 @@ double depth_in(const Box& box, dvec3 p) {
     return std::max(inner, std::numeric_limits<double>::denorm_min());
 }
 
+/// Computes the runs of a slice without the boxes at a height of their grid.
+void runs_without(const SliceField& solid, const RunBoxes& boxes, double z, const RowBand& band,
+                  Scratch& scratch, RunRows& out) {
+    solid.runs(band, scratch, out);
+    const auto taken = scratch.rows(), rest = scratch.rows();
+    if (!box_spans(boxes, z, band, scratch.collector, *taken)) return;
+    subtract(out, *taken, *rest);
+    std::swap(out, *rest);
+}
+
+/// Adjusts the samples of a slice at a height of the boxes' grid.
+template <typename Without>
+void sample_without(const Tile& tile, double z, const Without& without, std::span<float> out) {
+    std::size_t k = 0;
+    for (int j = 0; j < tile.ny; ++j) {
+        for (int i = 0; i < tile.nx; ++i, ++k) {
+            const dvec2 p = tile.origin + dvec2(i, j) * tile.step;
+            out[k] = static_cast<float>(without.adjusted(dvec3(p, z), out[k]));
+        }
+    }
+}
+
 class WithoutBoxes : public Field {
   public:
     WithoutBoxes(FieldPtr solid, std::shared_ptr<const RunBoxes> boxes)
@@ -83,16 +105,12 @@ class WithoutBoxesSlice : public SampledSlice {
     WithoutBoxesSlice(const WithoutBoxes& field, const SliceField& solid, const RunBoxes& boxes, double z)
         : SampledSlice(field, z), field_(field), solid_(solid), boxes_(boxes), z_(z) {}
 
-    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override;
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
+        runs_without(solid_, boxes_, z_, band, scratch, out);
+    }
     void sample(const Tile& tile, std::span<float> out) const override {
         solid_.sample(tile, out);
-        std::size_t k = 0;
-        for (int j = 0; j < tile.ny; ++j) {
-            for (int i = 0; i < tile.nx; ++i, ++k) {
-                const dvec2 p = tile.origin + dvec2(i, j) * tile.step;
-                out[k] = static_cast<float>(field_.adjusted(dvec3(p, z_), out[k]));
-            }
-        }
+        sample_without(tile, z_, field_, out);
     }
     Rect bounds() const override { return solid_.bounds(); }
 
@@ -123,12 +141,72 @@ const SliceField& WithoutBoxes::slice(SliceContext& context, double z) const {
     return context.make<WithoutBoxesSlice>(*this, solid, *boxes_, z);
 }
 
-void WithoutBoxesSlice::runs(const RowBand& band, Scratch& scratch, RunRows& out) const {
-    solid_.runs(band, scratch, out);
-    const auto taken = scratch.rows(), rest = scratch.rows();
-    if (!box_spans(boxes_, z_, band, scratch.collector, *taken)) return;
-    subtract(out, *taken, *rest);
-    std::swap(out, *rest);
+/// Boxes by layer, looked up at the middles of the layers.
+class WithoutLayerBoxes : public Field {
+  public:
+    WithoutLayerBoxes(FieldPtr solid, std::shared_ptr<const RunBoxes> boxes,
+                      std::function<int(double z)> layer_of)
+        : solid_(std::move(solid)), boxes_(std::move(boxes)), layer_of_(std::move(layer_of)) {}
+
+    double value(dvec3 p) const override { return adjusted(in_grid(p), solid_->value(p)); }
+    Interval range(const Box& box) const override {
+        return raised(solid_->range(box), {in_grid(box.lo), in_grid(box.hi)});
+    }
+    Metric metric() const override { return Metric::sign; }
+    const SliceField& slice(SliceContext& context, double z) const override;
+    Box bounds() const override { return solid_->bounds(); }
+
+    /// Returns an interval that encloses the values in a box of the grid, from one for the whole solid.
+    Interval raised(Interval whole, const Box& box) const {
+        if (boxes_->meets(grown(box, boxes_->grid().pitch)))
+            whole.hi = std::max(whole.hi, 0.5 * boxes_->grid().layer_height);
+        return whole;
+    }
+    /// Returns the value at a point of the grid; v is that of the whole solid.
+    double adjusted(dvec3 p, double v) const {
+        const PlacedRun* run = boxes_->find(p);
+        return run != nullptr ? std::max(v, depth_in(boxes_->grid().box(*run), p)) : v;
+    }
+
+  private:
+    dvec3 in_grid(dvec3 p) const { return {p.x, p.y, layer_of_(p.z) + 0.5}; }
+
+    FieldPtr solid_;
+    std::shared_ptr<const RunBoxes> boxes_;
+    std::function<int(double z)> layer_of_;
+};
+
+class WithoutLayerBoxesSlice : public SliceField {
+  public:
+    /// `height` is that of the boxes' grid.
+    WithoutLayerBoxesSlice(const WithoutLayerBoxes& field, const SliceField& solid, const RunBoxes& boxes,
+                           double height)
+        : field_(field), solid_(solid), boxes_(boxes), height_(height) {}
+
+    void runs(const RowBand& band, Scratch& scratch, RunRows& out) const override {
+        runs_without(solid_, boxes_, height_, band, scratch, out);
+    }
+    Interval range(const Rect& r) const override {
+        return field_.raised(solid_.range(r), {{r.lo, height_}, {r.hi, height_}});
+    }
+    void sample(const Tile& tile, std::span<float> out) const override {
+        solid_.sample(tile, out);
+        sample_without(tile, height_, field_, out);
+    }
+    Rect bounds() const override { return solid_.bounds(); }
+
+  private:
+    const WithoutLayerBoxes& field_;
+    const SliceField& solid_;
+    const RunBoxes& boxes_;
+    double height_;
+};
+
+const SliceField& WithoutLayerBoxes::slice(SliceContext& context, double z) const {
+    const SliceField& solid = context.slice(*solid_, z);
+    const double height = layer_of_(z) + 0.5;
+    if (boxes_->at(height).empty()) return solid;
+    return context.make<WithoutLayerBoxesSlice>(*this, solid, *boxes_, height);
 }
 
 class BoxSolid : public Field {
@@ -179,6 +257,13 @@ const SliceField& BoxSolid::slice(SliceContext& context, double z) const {
 FieldPtr make_without_boxes(FieldPtr solid, std::shared_ptr<const RunBoxes> boxes) {
     if (!solid || !boxes) throw InputError("a solid without boxes needs a solid and a survey's plan");
     return std::make_shared<WithoutBoxes>(std::move(solid), std::move(boxes));
+}
+
+FieldPtr make_without_layer_boxes(FieldPtr solid, std::shared_ptr<const RunBoxes> boxes,
+                                  std::function<int(double z)> layer_of) {
+    if (!solid || !boxes || !layer_of)
+        throw InputError("a solid without boxes of layers needs a solid, boxes and their layers");
+    return std::make_shared<WithoutLayerBoxes>(std::move(solid), std::move(boxes), std::move(layer_of));
 }
 
 FieldPtr make_box_solid(std::shared_ptr<const RunBoxes> boxes) {

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <queue>
 #include <tuple>
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
+#include "engine/base/parallel.h"
 #include "procedural/pattern/nearest_on_lattice.h"
 
 namespace lamella {
@@ -88,7 +90,7 @@ std::vector<HangingPieces::Interval> HangingPieces::intervals_of(const CarriedDi
 
 /// Takes intervals by y, x and begin. Looks from each line at the four of its eight neighbours that come
 /// before it.
-std::vector<HangingPieces::Joint> HangingPieces::joints_of(std::span<const Interval> intervals) {
+std::vector<HangingPieces::Joint> HangingPieces::neighbours_of(std::span<const Interval> intervals) {
     constexpr std::array<std::pair<int, int>, 4> before{{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
     std::array<std::size_t, before.size()> first{};
     std::vector<Joint> joints;
@@ -99,18 +101,52 @@ std::vector<HangingPieces::Joint> HangingPieces::joints_of(std::span<const Inter
             const auto line_of = [&](std::size_t j) { return std::pair(intervals[j].y, intervals[j].x); };
             while (line_of(first[k]) < line) ++first[k];
             for (std::size_t j = first[k]; line_of(j) == line; ++j) {
-                const double height = std::max(here.begin, intervals[j].begin);
-                if (height <= std::min(here.end, intervals[j].end))
-                    joints.push_back({height, i, static_cast<std::uint32_t>(j)});
+                const double height = std::max(here.begin, intervals[j].begin),
+                             end = std::min(here.end, intervals[j].end);
+                if (height <= end) joints.push_back({height, end, i, static_cast<std::uint32_t>(j)});
             }
         }
     }
     return joints;
 }
 
+/// Whether no gap of the pattern lies between two lines at a height: lines see gaps only that are wider than
+/// they are apart.
+bool HangingPieces::is_solid_between(const CarriedDistance& pattern, const Interval& a, const Interval& b,
+                                     double height) const {
+    const double spacing = sites_.spacing;
+    const auto site_at = [&](const Interval& interval) {
+        const auto steps =
+            static_cast<std::int64_t>(std::ceil(height / spacing - 0.5)) - samples_[interval.sample].at.z;
+        return samples_[interval.sample + static_cast<std::uint32_t>(std::max<std::int64_t>(steps, 0))].site;
+    };
+    const dvec3 from(spacing * dvec2(a.x, a.y), height), to(spacing * dvec2(b.x, b.y), height);
+    constexpr int parts = 4;
+    for (int k = 1; k < parts; ++k) {
+        const double share = static_cast<double>(k) / parts;
+        if (!(pattern.at(glm::mix(from, to, share), site_at(2 * k <= parts ? a : b)) > 0)) return false;
+    }
+    return true;
+}
+
+/// Returns the neighbours without a gap between them, and from which height on.
+std::vector<HangingPieces::Joint> HangingPieces::joints_of(const CarriedDistance& pattern,
+                                                           std::span<const Interval> intervals) const {
+    std::vector<Joint> joints = neighbours_of(intervals);
+    const double step = 0.25 * sites_.spacing;
+    parallel_for(joints.size(), [&](std::size_t i) {
+        Joint& joint = joints[i];
+        while (joint.height <= joint.end &&
+               !is_solid_between(pattern, intervals[joint.a], intervals[joint.b], joint.height))
+            joint.height += step;
+    });
+    std::erase_if(joints, [](const Joint& joint) { return joint.height > joint.end; });
+    return joints;
+}
+
 std::vector<std::uint32_t> HangingPieces::find(const CarriedDistance& pattern) const {
     const std::vector<Interval> intervals = intervals_of(pattern);
-    std::vector<Joint> joints = joints_of(intervals);
+    std::vector<Joint> joints = joints_of(pattern, intervals);
     std::ranges::sort(joints, {},
                       [](const Joint& joint) { return std::tuple(joint.height, joint.a, joint.b); });
     std::vector<std::uint32_t> by_begin(intervals.size()), rank(intervals.size());
@@ -126,18 +162,44 @@ std::vector<std::uint32_t> HangingPieces::find(const CarriedDistance& pattern) c
         alone_until[std::max(a, b)] = joint.height;
         pieces.join(a, b);
     }
-    const double least = 0.25 * sites_.spacing;
+    const double least = 0.25 * sites_.spacing, on_the_bed = 0.02 * sites_.spacing;
     std::vector<std::uint32_t> found;
     for (std::uint32_t r = 0; r < by_begin.size(); ++r) {
         const Interval& interval = intervals[by_begin[r]];
-        const bool is_lowest = interval.begin - intervals[by_begin[0]].begin <= least;
+        const bool is_lowest = interval.begin - intervals[by_begin[0]].begin <= on_the_bed;
         if (!is_lowest && alone_until[r] - interval.begin > least) found.push_back(interval.sample);
     }
     return found;
 }
 
+/// Returns the height at which the solid that holds a solid sample begins on its line, mm.
+double HangingPieces::begin_of(const CarriedDistance& pattern, std::uint32_t sample) const {
+    const double spacing = sites_.spacing;
+    for (std::uint32_t i = sample;; --i) {
+        const glm::i64vec3 at = samples_[i].at;
+        const double here = value(pattern, samples_[i]), z = static_cast<double>(at.z) * spacing;
+        const bool goes_on = i > 0 && samples_[i - 1].at == at - glm::i64vec3(0, 0, 1);
+        if (!goes_on) return z - std::min(here, spacing);
+        const double below = value(pattern, samples_[i - 1]);
+        if (!(below > 0)) return z - here / (here - below) * spacing;
+    }
+}
+
 std::vector<std::uint32_t> HangingPieces::way_down(const CarriedDistance& pattern,
                                                    std::uint32_t sample) const {
+    const std::int64_t top = samples_[sample].at.z;
+    std::vector<std::uint32_t> way = way_to(pattern, sample, [&](const Sample& at) { return at.at.z < top; });
+    if (!way.empty()) return way;
+    const double begin = begin_of(pattern, sample);
+    return way_to(pattern, sample, [&](const Sample& at) {
+        return begin_of(pattern, static_cast<std::uint32_t>(&at - samples_.data())) < begin;
+    });
+}
+
+/// Returns the sites along the cheapest way from a sample to a solid one that is a target.
+template <typename IsTarget>
+std::vector<std::uint32_t> HangingPieces::way_to(const CarriedDistance& pattern, std::uint32_t sample,
+                                                 const IsTarget& is_target) const {
     constexpr std::int64_t most_rise = 2;
     constexpr double rising = 10, above = 100;  // steps that a step up, and one above the sample, are worth
     struct Reached {
@@ -156,7 +218,7 @@ std::vector<std::uint32_t> HangingPieces::way_down(const CarriedDistance& patter
         open.pop();
         if (!from.emplace(here.sample, here.from).second) continue;
         const Sample& at = samples_[here.sample];
-        if (at.at.z < top && value(pattern, at) > 0) return strut_along(pattern, from, here.sample);
+        if (value(pattern, at) > 0 && is_target(at)) return strut_along(pattern, from, here.sample);
         for (int k = 0; k < 27; ++k) {
             const glm::i64vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
             const std::int64_t z = at.at.z + step.z;

@@ -15,14 +15,6 @@ namespace lamella {
 
 namespace {
 
-/// Returns the solid share of the surface. A site near the border counts by how much of its surroundings is
-/// solid: struts along rows of sites would be as wide as rows are many.
-double solid_share(std::span<const float> distances, double spacing) {
-    double sum = 0;
-    for (const float d : distances) sum += std::clamp(0.5 + static_cast<double>(d) / spacing, 0.0, 1.0);
-    return sum / static_cast<double>(distances.size());
-}
-
 std::vector<float> cut(const SurfaceSites& sites, const SiteWindows& windows, const SitePattern& pattern,
                        float threshold, const PrintSettings& settings) {
     std::vector<float> distances;
@@ -59,15 +51,6 @@ std::size_t drop_small_pieces(const SurfaceSites& sites, double strut, std::vect
     return dropped;
 }
 
-void add_struts(const SurfaceSites& sites, std::span<const SiteLine> lines, double strut,
-                std::vector<float>& distances) {
-    SiteLine points;
-    for (const auto& line : lines) points.insert(points.end(), line.begin(), line.end());
-    if (points.empty()) return;
-    const std::vector<float> struts = struts_along(sites, points, strut, strut + 4 * sites.spacing);
-    for (std::size_t i = 0; i < struts.size(); ++i) distances[i] = std::max(distances[i], struts[i]);
-}
-
 /// Returns the pieces that hold together by more than half a strut's width: where two merely touch, they are
 /// two.
 SitePieces firm_pieces(const SurfaceSites& sites, double strut, std::span<const float> distances) {
@@ -95,6 +78,21 @@ void join_pieces(const SurfaceSites& sites, const SitePattern& pattern, float th
 }
 
 }  // namespace
+
+double solid_share(std::span<const float> distances, double spacing) {
+    double sum = 0;
+    for (const float d : distances) sum += std::clamp(0.5 + static_cast<double>(d) / spacing, 0.0, 1.0);
+    return sum / static_cast<double>(distances.size());
+}
+
+void add_struts(const SurfaceSites& sites, std::span<const SiteLine> lines, double strut,
+                std::vector<float>& distances) {
+    SiteLine points;
+    for (const auto& line : lines) points.insert(points.end(), line.begin(), line.end());
+    if (points.empty()) return;
+    const std::vector<float> struts = struts_along(sites, points, strut, strut + 4 * sites.spacing);
+    for (std::size_t i = 0; i < struts.size(); ++i) distances[i] = std::max(distances[i], struts[i]);
+}
 
 PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows& windows,
                                    const SitePattern& pattern, std::span<const SiteLine> bridges,

@@ -24,6 +24,15 @@ struct PrintablePattern {
     std::vector<SiteLine> joins;  ///< the middle lines of struts that join pieces
 };
 
+/// Returns the solid share of a surface by distances of its sites, mm, `spacing` mm apart. A site near the
+/// border counts by how much of its surroundings is solid: struts along rows of sites would be as wide as
+/// rows are many.
+double solid_share(std::span<const float> distances, double spacing);
+
+/// Adds struts of this width, mm, to the distances, mm, by site.
+void add_struts(const SurfaceSites& sites, std::span<const SiteLine> lines, double strut,
+                std::vector<float>& distances);
+
 /// Cuts the pattern where its distance exceeds a threshold, such that the solid share is the wanted one once
 /// gaps and struts have their least widths (struts have precedence), pieces smaller than a disc of one and a
 /// half struts' diameter are dropped, and the others joined by struts along lines_between(): each component

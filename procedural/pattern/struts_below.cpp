@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "procedural/pattern/printable_pattern.h"
+
 namespace lamella {
 
 std::vector<SiteLine> struts_below(const SurfaceSites& sites, const HangingPieces& pieces,
@@ -32,6 +34,19 @@ std::vector<SiteLine> StrutsBelow::choose(std::span<const float> distances) {
     }
     other_ = nullptr;
     return missing(distances);
+}
+
+std::size_t StrutsBelow::complete(double strut, double limit, std::vector<float>& distances) const {
+    constexpr int most_rounds = 32;
+    std::size_t added = 0;
+    for (int round = 0; round < most_rounds; ++round) {
+        const std::vector<SiteLine> lines = missing(distances);
+        if (lines.empty()) break;
+        added += lines.size();
+        add_struts(sites_, lines, strut, distances);
+        distances = signed_distances(sites_, distances, limit);
+    }
+    return added;
 }
 
 }  // namespace lamella

@@ -27,6 +27,9 @@ class StrutsBelow : public BridgeChoice {
     std::vector<SiteLine> missing(std::span<const float> distances) const {
         return struts_below(sites_, pieces_, distances, apart_);
     }
+    /// Adds struts below what hangs to a pattern's distances, until none is missing, in at most 32 rounds.
+    /// Struts are `strut` mm wide; distances are told up to `limit` mm. Returns how many it added.
+    std::size_t complete(double strut, double limit, std::vector<float>& distances) const;
     double weakness() const override { return other_ != nullptr ? other_->weakness() : 0; }
 
   private:

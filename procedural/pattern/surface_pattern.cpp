@@ -127,6 +127,11 @@ SoundPattern reinforced(const Field& body, const Example& example, const std::ve
     std::optional<StrutsBelow> below;
     if (settings.self_supporting) below.emplace(sites, body, settings.depth, settings.example.strut, choice);
     SoundPattern made = synthesise_example(example, levels, settings.example, below ? &*below : choice);
+    if (below) {
+        const double strut = settings.example.strut;
+        made.bridges += below->complete(strut, std::max(strut, settings.example.gap), made.printed.distance);
+        made.printed.share = solid_share(made.printed.distance, sites.spacing);
+    }
     if (choice != nullptr) {
         const bool is_known = shape && !settings.self_supporting;
         const BridgePlan left =

@@ -7,6 +7,7 @@
 #include "engine/layers/layer.h"
 #include "engine/surveys/island_survey.h"
 #include "engine/surveys/piece_joins.h"
+#include "engine/surveys/tip_survey.h"
 #include "procedural/elements/element_plan.h"
 #include "recipe/build/build_body.h"
 #include "recipe/build/build_enclosure.h"
@@ -26,6 +27,8 @@ namespace lamella {
 struct RepairReport {
     std::optional<JoinSurvey> joins;
     std::optional<CheckResult> thickened, filled;  ///< findings before the repair
+    std::optional<TipSurvey> tips;
+    double trim = 0;  ///< mm: up to which tips were trimmed
 };
 
 struct BuiltJob {

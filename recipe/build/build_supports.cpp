@@ -13,6 +13,7 @@
 #include "procedural/scaffold/scaffold_field.h"
 #include "procedural/scaffold/scaffold_synthesis.h"
 #include "recipe/build/build_process.h"
+#include "recipe/build/repair_job.h"
 #include "recipe/identity.h"
 #include "recipe/layering/plan_layers.h"
 
@@ -190,7 +191,7 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
     Job& job = built.job;
     lift(job, lift_layers(recipe));
     Job surveyed = job;
-    surveyed.part = make_scaled(recipe, built.designed, outer);
+    surveyed.part = without_tips(make_scaled(recipe, built.designed, outer), built);
 
     BuiltSupports supports;
     const std::string hash = plan_hash(recipe, job);
@@ -210,7 +211,7 @@ std::optional<BuiltSupports> add_supports(const Recipe& recipe, BuiltJob& built,
     const auto beside = [&](const FieldPtr& part) {
         return make_difference(scaffold, make_union({part, under_bed}));
     };
-    job.supports = beside(make_processed(recipe, printed, built.layers.plan).part);
+    job.supports = beside(without_tips(make_processed(recipe, printed, built.layers.plan).part, built));
     supports.before_offsets = beside(surveyed.part);
     const Box box = unite(job.bounds, scaffold->bounds());
     job.bounds = {{box.lo.x, box.lo.y, job.bounds.lo.z}, {box.hi.x, box.hi.y, job.bounds.hi.z}};

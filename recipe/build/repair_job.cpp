@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/layers/survey_rows.h"
+#include "engine/solids/box_solid.h"
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "engine/surveys/island_survey.h"
@@ -47,6 +48,18 @@ void join_pieces(const Recipe& recipe, BuiltJob& built, RepairReport& report, co
     built.job = make_processed(recipe, built.designed, built.layers.plan);
 }
 
+void trim_tips(double height, const BuiltJob& built, RepairReport& report, const RepairOptions& options) {
+    constexpr double widest = 0.2;  // of what rows of a fine pitch are spent on, mm
+    TipSurveyOptions survey;
+    survey.pitch = pitch_for(built.job, std::min(height, widest));
+    survey.height = height;
+    survey.threads = options.threads;
+    survey.on_progress = options.on_progress;
+    survey.cancel = options.cancel;
+    report.tips = survey_tips(built.job, survey);
+    report.trim = height;
+}
+
 /// Returns the findings of a check in the job before outlines are repaired.
 CheckResult count_faults(const Recipe& recipe, const BuiltJob& built, Check check, double limit,
                          const RepairOptions& options) {
@@ -70,6 +83,35 @@ nlohmann::ordered_json mended_json(const CheckResult& result) {
             {"largest", std::move(largest)}};
 }
 
+nlohmann::ordered_json tips_json(const TipSurvey& tips, double trim) {
+    auto kept = nlohmann::ordered_json::array();
+    for (const HangingTip& tip : tips.kept)
+        kept.push_back({{"at_mm", json_triple(tip.at)},
+                        {"height_mm", tip.height},
+                        {"area_mm2", tip.area},
+                        {"first_layer", tip.first_layer},
+                        {"end_layer", tip.end_layer}});
+    return {{"to_mm", trim},         {"tips", tips.trimmed},    {"volume_mm3", tips.volume},
+            {"higher", tips.higher}, {"holding", tips.holding}, {"kept", std::move(kept)}};
+}
+
+std::string counted_tips(std::size_t count) {
+    return fmt::format("{} {}", count, count == 1 ? "tip" : "tips");
+}
+
+std::string tips_text(const TipSurvey& tips, double trim) {
+    std::string text = fmt::format("trim       {} up to {} mm high, {:.2f} mm3 in all, removed",
+                                   counted_tips(tips.trimmed), trim, tips.volume);
+    if (tips.holding > 0)
+        text += fmt::format("; {} left that hold pieces together", counted_tips(tips.holding));
+    if (tips.higher > 0) {
+        const HangingTip& tip = tips.kept.front();
+        text += fmt::format("; {} higher than that, the highest {:.2f} mm at ({:.2f}, {:.2f}, {:.2f}) mm",
+                            counted_tips(tips.higher), tip.height, tip.at.x, tip.at.y, tip.at.z);
+    }
+    return text + "\n";
+}
+
 std::string mended_text(const char* name, const CheckResult& result, const char* found, const char* done) {
     if (result.count == 0) return fmt::format("{}nothing {} than {} mm\n", name, found, result.limit);
     const Fault& worst = result.worst.front();
@@ -82,14 +124,33 @@ std::string mended_text(const char* name, const CheckResult& result, const char*
 }  // namespace
 
 void repair_job(const Recipe& recipe, BuiltJob& built, const RepairOptions& options) {
-    if (!recipe.repair) return;
-    const RepairRecipe& repair = *recipe.repair;
+    const double trim = trim_height(recipe);
+    if (!recipe.repair && trim == 0) return;
+    const RepairRecipe repair = recipe.repair.value_or(RepairRecipe());
     RepairReport report;
     if (repair.join > 0) join_pieces(recipe, built, report, options);
     if (repair.thickness > 0)
         report.thickened = count_faults(recipe, built, Check::thickness, repair.thickness, options);
     if (repair.gap > 0) report.filled = count_faults(recipe, built, Check::gaps, repair.gap, options);
+    if (trim > 0) trim_tips(trim, built, report, options);
     built.repairs = std::move(report);
+    built.job.part = without_tips(built.job.part, built);
+}
+
+double trim_height(const Recipe& recipe) {
+    if (recipe.repair && recipe.repair->trim >= 0) return recipe.repair->trim;
+    constexpr double share_of_strut = 0.25, usual_strut = 0.8;
+    if (!recipe.skin || !recipe.skin->self_supporting) return 0;
+    const GradedNumber& strut = recipe.skin->strut;
+    return share_of_strut * (strut.is_formula() ? usual_strut : strut.number());
+}
+
+FieldPtr without_tips(FieldPtr solid, const BuiltJob& built) {
+    if (!built.repairs || !built.repairs->tips || built.repairs->tips->removed->empty()) return solid;
+    const double bed = built.designed.z0();
+    return make_without_layer_boxes(
+        std::move(solid), built.repairs->tips->removed,
+        [plan = built.layers.plan, bed](double z) { return plan.layer_at(z - bed); });
 }
 
 nlohmann::ordered_json repairs_json(const RepairReport& report) {
@@ -102,6 +163,7 @@ nlohmann::ordered_json repairs_json(const RepairReport& report) {
     }
     if (report.thickened) json["thickened"] = mended_json(*report.thickened);
     if (report.filled) json["filled"] = mended_json(*report.filled);
+    if (report.tips) json["trimmed"] = tips_json(*report.tips, report.trim);
     return json;
 }
 
@@ -117,6 +179,7 @@ std::string repairs_text(const RepairReport& report) {
     }
     if (report.thickened) text += mended_text("thickness  ", *report.thickened, "thinner", "made thicker");
     if (report.filled) text += mended_text("gaps       ", *report.filled, "narrower", "filled");
+    if (report.tips) text += tips_text(*report.tips, report.trim);
     return text;
 }
 

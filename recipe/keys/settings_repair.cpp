@@ -5,10 +5,11 @@ namespace lamella {
 
 namespace {
 
+constexpr Limits lengths{0, 100};
+
 template <auto member>
 void add_repair_row(std::vector<Setting>& t, const char* key, const char* flag, SettingSpec facts) {
     facts.unit = "mm";
-    facts.limits = {0, 100};
     facts.fallback = format_value(RepairRecipe{}.*member);
     t.push_back(optional_row<&Recipe::repair, member>("repair", key, flag, std::move(facts)));
 }
@@ -19,12 +20,22 @@ void add_repair_settings(std::vector<Setting>& table) {
     using R = RepairRecipe;
     add_repair_row<&R::thickness>(
         table, "thickness", "--repair-thickness",
-        {.help = "Walls thinner than this within a layer are thickened to it; 0: no change."});
-    add_repair_row<&R::gap>(table, "gap", "--repair-gap",
-                            {.help = "Gaps narrower than this within a layer are filled; 0: no change."});
+        {.limits = lengths,
+         .help = "Walls thinner than this within a layer are thickened to it; 0: no change."});
+    add_repair_row<&R::gap>(
+        table, "gap", "--repair-gap",
+        {.limits = lengths, .help = "Gaps narrower than this within a layer are filled; 0: no change."});
     add_repair_row<&R::join>(
         table, "join", "--repair-join",
-        {.help = "Diameter of struts that join disconnected pieces of the part; 0: pieces are not joined."});
+        {.limits = lengths,
+         .help = "Diameter of struts that join disconnected pieces of the part; 0: pieces are not joined."});
+    add_repair_row<&R::trim>(
+        table, "trim", "--repair-trim",
+        {.limits = {-1, lengths.hi},
+         .help =
+             "Tips that begin in the air are removed up to where they join the part, if they are no higher "
+             "than this or a single layer; 0: none; negative: the default, a quarter of the struts of a "
+             "self-supporting skin, else 0."});
 }
 
 }  // namespace lamella

@@ -465,7 +465,7 @@ std::span<const Section> sections() {
          "cavities inside the part whose roofs print without supports; without this section there are none"},
         {"layers", "how the part is cut into layers"},
         {"process", "machine compensation: scale and offsets"},
-        {"repair", "repairs before printing; without this section nothing is repaired"},
+        {"repair", "repairs before printing; without this section, only self-supporting skins are trimmed"},
         {"support", "supports under overhangs; without this section there are none"},
         {"shield", "a wall around the print, removed later; without this section there is none"},
         {"check", "limits of the machine and severity of faults, for `check` and `slice --check`", nullptr,

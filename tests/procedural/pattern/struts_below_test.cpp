@@ -1,6 +1,7 @@
 // Struts below what would begin in the air: a drawn pattern, and one by example, on a box that stands.
 #include "procedural/pattern/struts_below.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "engine/solids/primitives.h"
@@ -53,6 +54,48 @@ TEST_CASE("a tongue that hangs down gets a strut below, and nothing else does", 
             CHECK(glm::distance(line[i].place, line[i - 1].place) < 1.5 * sites.spacing);
         }
     }
+}
+
+TEST_CASE("a tongue beside a column hangs, however narrow the gap between them", "[pattern]") {
+    // A window in a front that is solid else. Lines a spacing of 0.25 mm apart see solid on both sides of the
+    // gap.
+    constexpr double gap_begin = 4.05, gap_end = 4.2, tongue_end = 5;
+    const FieldPtr body = make_box({dvec3(0), dvec3(10, 10, 14)});
+    const SurfaceSites sites = sites_of(body);
+    std::vector<float> distances;
+    for (const dvec3 p : sites.places) {
+        double distance = 1;
+        if (p.y < 0.1) {
+            distance = std::max({4 - p.z, p.z - 8, gap_begin - p.x, p.x - 9});
+            distance = std::max(distance, std::min({p.x - gap_end, 6 - p.x, p.z - tongue_end}));
+        }
+        distances.push_back(static_cast<float>(std::clamp(distance, -1.0, 1.0)));
+    }
+    const std::vector<SiteLine> struts = struts_of(body, sites, distances);
+    REQUIRE(struts.size() == 1);
+    CHECK(struts.front().front().place.z == Approx(tongue_end).margin(0.25));
+    // It ends at a site within the solid below.
+    CHECK(struts.front().back().place.z < 4);
+    CHECK(struts.front().back().place.z > 4 - 2 * sites.spacing);
+    StrutsBelow below(sites, *body, depth, strut, nullptr);
+    CHECK(below.complete(strut, 1, distances) == 1);
+    CHECK(below.missing(distances).empty());
+}
+
+TEST_CASE("a foot that begins just over the bed gets a strut to the one on it", "[pattern]") {
+    // A ball's lowest point is solid; a ring about it begins 0.04 mm higher.
+    const FieldPtr body = make_sphere(dvec3(0), 12);
+    const SurfaceSites sites = sites_of(body);
+    std::vector<float> distances;
+    for (const dvec3 p : sites.places) {
+        const double radius = glm::length(dvec2(p));
+        const bool is_low = p.z < 0;
+        distances.push_back(
+            static_cast<float>(is_low ? std::clamp(std::max(0.5 - radius, radius - 1), -1.0, 1.0) : 1.0));
+    }
+    const std::vector<SiteLine> struts = struts_of(body, sites, distances);
+    REQUIRE(struts.size() == 1);
+    CHECK(glm::length(dvec2(struts.front().back().place)) < 0.7);
 }
 
 TEST_CASE("what begins at the bottom of the body needs supports, not struts", "[pattern]") {

@@ -22,6 +22,14 @@ const std::string comb =
     "5), abs(z) - 2), min(0.2 - abs(x - 1.2 * floor(x / 1.2 + 0.5)), 4 - y))\"\n"
     "bounds = [[-5.1, -5.1, -2.1], [5.1, 5.1, 2.1]]\n";
 
+// A wall with an arm, and a tongue 0.2 mm high that hangs below its end.
+const std::string hook =
+    "[part]\nfield = \"hook\"\n[layers]\nheight = 0.05\n[[field]]\nname = \"hook\"\nformula = \"min(min("
+    "max(max(abs(x) - 1, abs(y) - 2), abs(z - 1.5) - 1.5), max(max(abs(x - 2) - 2, abs(y) - 1), abs(z - 2.4) "
+    "- "
+    "0.4)), max(max(abs(x - 3) - 0.5, abs(y) - 0.5), abs(z - 1.95) - 0.15))\"\n"
+    "bounds = [[-1, -2, 0], [4, 2, 3]]\n";
+
 BuiltJob repaired(const std::string& text) {
     const Recipe recipe = recipe_of(text);
     BuiltJob built = build_job(recipe);
@@ -90,6 +98,37 @@ TEST_CASE("repairs are in mm as printed", "[repair]") {
     CHECK(built.repairs->thickened->total <
           0.1 * repaired(foam + "[repair]\nthickness = 0.5\n").repairs->thickened->total * 8);
     CHECK(found(built.job, Check::connectivity, 0.5).count == 0);
+}
+
+TEST_CASE("tips are trimmed as printed, and the higher ones told", "[repair]") {
+    REQUIRE(found(repaired(hook).job, Check::islands, 0.4).count == 1);
+    const BuiltJob built = repaired(hook + "[repair]\ntrim = 0.2\n");
+    REQUIRE(built.repairs->tips);
+    CHECK(built.repairs->tips->trimmed == 1);
+    CHECK(found(built.job, Check::islands, 0.4).count == 0);
+    CHECK(repairs_json(*built.repairs)["trimmed"]["tips"] == 1);
+    CHECK_THAT(repairs_text(*built.repairs), Catch::StartsWith("trim       1 tip up to 0.2 mm high"));
+    // Twice as large, the tongue is 0.4 mm high.
+    const std::string twice = hook + "[process]\nscale = [2, 2, 2]\n";
+    const BuiltJob high = repaired(twice + "[repair]\ntrim = 0.3\n");
+    CHECK(high.repairs->tips->trimmed == 0);
+    REQUIRE(high.repairs->tips->higher == 1);
+    CHECK(high.repairs->tips->kept.front().height == Approx(0.4));
+    CHECK_THAT(repairs_text(*high.repairs), Catch::Contains("1 tip higher than that, the highest 0.40 mm"));
+    CHECK(found(repaired(twice + "[repair]\ntrim = 0.4\n").job, Check::islands, 0.4).count == 0);
+}
+
+TEST_CASE("self-supporting skins are trimmed unless the recipe says otherwise", "[repair]") {
+    const std::string skin =
+                          "[part]\nshape = \"sphere\"\nradius = 9\n[skin]\nthickness = 1\npattern = "
+                          "\"by-example\"\nimage = \"x.png\"\nimage_size = 20\nstrut = 0.6\n",
+                      held = skin + "self_supporting = true\n";
+    CHECK(trim_height(recipe_of(skin)) == 0);
+    CHECK(trim_height(recipe_of(held)) == Approx(0.15));
+    CHECK(trim_height(recipe_of(held + "[repair]\njoin = 1\n")) == Approx(0.15));
+    CHECK(trim_height(recipe_of(held + "[repair]\ntrim = 0\n")) == 0);
+    CHECK(trim_height(recipe_of(skin + "[repair]\ntrim = 0.4\n")) == Approx(0.4));
+    CHECK(trim_height(recipe_of(skin + "[repair]\njoin = 1\n")) == 0);
 }
 
 TEST_CASE("repairs that make no sense are refused", "[repair]") {
