@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
+import http from 'node:http';
 import path from 'node:path';
 import { test } from 'node:test';
 import { hosts, makeConfig, makeFile, newKey, quick, run, start, temporary } from './program.mjs';
@@ -122,21 +123,43 @@ test('the file of hosts: rights and mistakes are told with their line', async (t
   }
 });
 
-test('the end of a print runs a program without a shell', async (t) => {
-  const { standin, config } = await start(t, moonraker);
+/** Ends a stand-in's print once its status was asked for. */
+function endWhenSeen(standin, state) {
+  const asked = standin.requests.length;
+  const timer = setInterval(() => {
+    if (!standin.requests.slice(asked).some((request) => request.includes('objects/query'))) return;
+    clearInterval(timer);
+    setTimeout(() => { standin.print.state = state; }, 100);
+  }, 20);
+}
+
+test('the end of a print runs a program without a shell, and tells an address', async (t) => {
+  const told = [];
+  const listener = http.createServer(async (request, response) => {
+    let text = '';
+    for await (const part of request) text += part;
+    told.push({ method: request.method, url: request.url, type: request.headers['content-type'], text });
+    response.end();
+  });
+  await new Promise((resolve) => listener.listen(0, '127.0.0.1', resolve));
+  t.after(() => listener.close());
+  const { standin, config } = await start(t, moonraker, { config: `webhook = "http://127.0.0.1:${listener.address().port}/ended/"\n` });
   const name = 'a b; touch never.gcode';
   standin.print = { state: 'printing', file: name };
   const got = path.join(temporary, 'ended.txt');
   const watching = run(['watch', 'printer', '--interval', '0.05', '--json', '--', 'sh', '-c', `printf '%s %s' "$LAMELLA_STATE" "$LAMELLA_FILE" > ${got}`], config);
-  setTimeout(() => { standin.print.state = 'complete'; }, 500);
+  endWhenSeen(standin, 'complete');
   const { code, out, error } = await watching;
   assert.equal(code, 0, error);
   assert.equal(fs.readFileSync(got, 'utf8'), `finished ${name}`);
+  assert.deepEqual(told, [{
+    method: 'POST', url: '/ended/', type: 'application/json', text: JSON.stringify({ host: 'printer', file: name, state: 'finished' }),
+  }]);
   const states = out.trim().split('\n').map((line) => JSON.parse(line).state);
   assert.equal(states[0], 'printing');
   assert.equal(states.at(-1), 'finished');
   standin.print = { state: 'printing', file: name };
   const cancelled = run(['watch', 'printer', '--interval', '0.05'], config);
-  setTimeout(() => { standin.print.state = 'cancelled'; }, 300);
+  endWhenSeen(standin, 'cancelled');
   assert.equal((await cancelled).code, 3);
 });
