@@ -114,7 +114,7 @@ test("what cannot be printed says what to choose", async () => {
     await page.getByLabel("Machine").selectOption("marlin");
     await page.getByRole("button", { name: /^Print \d+ layers$/ }).waitFor();
     await page.getByLabel("Port").selectOption("another path");
-    await page.getByLabel("Path").fill("/dev/ttyNone");
+    await page.getByLabel("Path", { exact: true }).fill("/dev/ttyNone");
     await page.getByRole("button", { name: /^Print \d+ layers$/ }).click();
     await page.getByRole("alert").getByText("there is no port /dev/ttyNone").waitFor();
     await page.getByText("More", { exact: true }).click();
@@ -169,7 +169,7 @@ test("the program prints to a machine, and stops it when it ends", { skip }, asy
     await until(() => window.__studio?.state.job);
     await page.keyboard.press("Alt+5");
     await page.getByLabel("Port").selectOption("another path");
-    await page.getByLabel("Path").fill(machine.port);
+    await page.getByLabel("Path", { exact: true }).fill(machine.port);
     await print();
     await page.getByRole("log").getByText("the printer is Marlin").waitFor();
     await until(() => window.__studio.state.print.state === "done");
