@@ -108,7 +108,7 @@ class TomlRecipe {
                 read_section(*find_section(name), line, node);
             } else {
                 refuse(line, shown(name), misplaced_in_profile(name),
-                       "description, based_on, [printer], [support] and [check]");
+                       "description, based_on, [printer], [support], [check] and [host]");
             }
         }
         return head;
