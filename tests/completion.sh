@@ -37,7 +37,7 @@ expect_among() {
     found=$(offered "$@")
     grep -qxF -e "$want" <<<"$found" || fail "bash: lamella $*: does not offer $want"
 }
-expect "section serve slice studio supports" s
+expect "section send serve slice studio supports" s
 expect "--help --help-all" --h
 expect "--skin-threshold" slice part.toml --skin-thr
 expect "gyroid" slice --foam g
