@@ -2,7 +2,6 @@
 #include "app/jobs/output_store.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -30,18 +29,8 @@ struct OutputStore::Entry {
     std::string message;
 };
 
-namespace {
-
-fs::path make_temporary_folder() {
-    std::string name = (fs::temp_directory_path() / "lamella-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw FaultError(name + ": no temporary folder can be made");
-    return name;
-}
-
-}  // namespace
-
 OutputStore::OutputStore(const ServedFolder& folder, EventHub& events, int threads)
-    : folder_(folder), events_(events), threads_(threads), temporary_(make_temporary_folder()) {
+    : folder_(folder), events_(events), threads_(threads) {
     worker_ = std::thread([this] { run(); });
 }
 
@@ -53,13 +42,12 @@ OutputStore::~OutputStore() {
         changed_.notify_all();
     }
     worker_.join();
-    std::error_code error;
-    fs::remove_all(temporary_, error);
 }
 
 fs::path OutputStore::place_of(const ServedJob& job, const std::string& file, int number) const {
     const PrinterProfile& printer = job.recipe.printer;
-    if (file.empty()) return temporary_ / fmt::format("{}", number) / default_output(printer, job.job().name);
+    if (file.empty())
+        return temporary_.path() / fmt::format("{}", number) / default_output(printer, job.job().name);
     fs::path path = folder_.file(file);
     const std::vector<std::string> endings = output_endings(find_backend(printer.backend));
     const bool fits =

@@ -11,6 +11,7 @@
 
 #include "app/http/event_hub.h"
 #include "app/jobs/served_job.h"
+#include "app/jobs/temporary_folder.h"
 
 namespace lamella {
 
@@ -45,7 +46,7 @@ class OutputStore {
     const ServedFolder& folder_;
     EventHub& events_;
     int threads_;
-    std::filesystem::path temporary_;
+    TemporaryFolder temporary_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool ended_ = false;

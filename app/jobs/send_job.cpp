@@ -2,15 +2,13 @@
 #include "app/jobs/send_job.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp is POSIX
 
-#include <cerrno>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string_view>
-#include <system_error>
 
+#include "app/jobs/temporary_folder.h"
 #include "app/reports/empty_job.h"
 #include "hosts/transfer/upload_source.h"
 #include "printers/gcode/gcode.h"
@@ -44,9 +42,8 @@ std::string ending_of(const PrinterProfile& printer) {
     const std::string endings = backend.endings;
     if (backend.output == OutputKind::folder || endings.empty()) {
         throw InputError(
-            fmt::format("the printer \"{}\" makes a folder, which no host takes; accepted: a printer that "
-                        "makes a file, such as "
-                        "--printer marlin",
+            fmt::format("the printer \"{}\" makes a folder, which no host takes; accepted: a printer of "
+                        "files, such as --printer marlin",
                         printer.name));
     }
     return endings.substr(0, endings.find(' '));
@@ -76,31 +73,6 @@ std::unique_ptr<UploadSource> stream_upload(const Recipe& recipe, const Job& job
     });
 }
 
-/// A folder among the temporary files, which goes with this object.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::error_code error;
-        std::string pattern = (std::filesystem::temp_directory_path(error) / "lamella-XXXXXX").string();
-        if (error || ::mkdtemp(pattern.data()) == nullptr) {
-            throw FaultError(fmt::format("{}: no folder for temporary files can be made there: {}", pattern,
-                                         error ? error.message() : std::generic_category().message(errno)));
-        }
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 }  // namespace
 
 JobSendReport send_job(NetworkHost& host, const Recipe& recipe, const Job& job, JobSending sending) {
@@ -109,9 +81,9 @@ JobSendReport send_job(NetworkHost& host, const Recipe& recipe, const Job& job, 
     const bool streams = makes_beads(recipe.printer);
     if (sending.no_spool && !streams)
         throw InputError(
-            "--no-spool: only G-code can be computed while it is sent; accepted: no --no-spool, and the file "
-            "is "
-            "written to disk first");
+            "--no-spool: only G-code can be computed while it is sent; accepted: no --no-spool, which writes "
+            "a "
+            "file first");
     if (upload.name.empty())
         upload.name = upload_name(recipe.part.name, upload_hash(job, sending.stream.range), ending);
     sending.stream.resume = false;
