@@ -176,24 +176,29 @@ std::vector<KnownHost> read_hosts(const std::string& path) {
     return hosts;
 }
 
-KnownHost find_host(const std::string& named) {
-    const std::string key = environment("LAMELLA_HOST_KEY");
-    const auto with_key = [&](KnownHost host) {
-        host.named = named;
-        if (!key.empty()) host.access.key = key;
-        return host;
-    };
-    if (const auto host = host_of_address(named)) return with_key(*host);
-    std::vector<std::string> names;
+std::optional<KnownHost> known_host(const std::string& name) {
     for (const KnownHost& host : read_hosts(hosts_file())) {
-        if (host.access.name == named) return with_key(host);
-        names.push_back(host.access.name);
+        if (host.access.name == name) return host;
     }
-    const std::string near = nearest(named, names);
-    throw InputError(fmt::format(
-        "--host: \"{}\" is unknown{}; accepted: a name in {}, or an address with its kind, such as "
-        "moonraker+http://voron.local",
-        named.substr(0, 64), near.empty() ? "" : fmt::format(", did you mean `{}`?", near), hosts_file()));
+    return std::nullopt;
+}
+
+KnownHost find_host(const std::string& named) {
+    std::optional<KnownHost> host = host_of_address(named);
+    if (!host) host = known_host(named);
+    if (!host) {
+        std::vector<std::string> names;
+        for (const KnownHost& other : read_hosts(hosts_file())) names.push_back(other.access.name);
+        const std::string near = nearest(named, names);
+        throw InputError(fmt::format(
+            "host \"{}\" is unknown{}; accepted: a name in {}, or an address with its kind, such as "
+            "moonraker+http://voron.local",
+            named.substr(0, 64), near.empty() ? "" : fmt::format(", did you mean `{}`?", near),
+            hosts_file()));
+    }
+    host->named = named;
+    if (const std::string key = environment("LAMELLA_HOST_KEY"); !key.empty()) host->access.key = key;
+    return *host;
 }
 
 }  // namespace lamella

@@ -1,6 +1,7 @@
 // The user's hosts: names, addresses and keys, in a file that only the user may read.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ std::string hosts_file();
 /// done, webhook if wanted. Returns none for a file that does not exist. Throws InputError, with file and
 /// line, for mistakes, and for a file with keys that others may read.
 std::vector<KnownHost> read_hosts(const std::string& path);
+
+/// Returns the host of this name in the user's file; nothing for others. Throws as read_hosts().
+std::optional<KnownHost> known_host(const std::string& name);
 
 /// Returns the host that `named` stands for: a name in the user's file, or KIND+URL, such as
 /// moonraker+http://voron.local. The key of the environment, LAMELLA_HOST_KEY, goes before that of the file.

@@ -24,6 +24,7 @@ class Moonraker : public NetworkHost {
   public:
     Moonraker(const HostAccess& access, std::string folder, const CancelToken* cancel)
         : http_(access, cancel), folder_(std::move(folder)) {
+        if (!access.key.empty()) http_.send_always("X-Api-Key: " + access.key);
         while (folder_.ends_with('/')) folder_.pop_back();
     }
 
@@ -32,7 +33,7 @@ class Moonraker : public NetworkHost {
         HostFacts facts;
         facts.software = "Moonraker " + text_at(server, "/result/moonraker_version");
         // Klipper tells its computer's name only while it runs.
-        const HostResponse printer = http_.ask(keyed({.path = "/printer/info", .also = {500, 503}}));
+        const HostResponse printer = http_.ask({.path = "/printer/info", .also = {500, 503}});
         if (printer.status == 200) facts.machine = text_at(read_json(http_, printer), "/result/hostname");
         const auto files = read_json(http_, get("/server/files/directory?path=gcodes"));
         facts.free_bytes = size_at(files, "/result/disk_usage/free");
@@ -43,8 +44,8 @@ class Moonraker : public NetworkHost {
     UploadNeeds needs() const override { return UploadNeeds::nothing; }
 
     std::optional<HostFile> find(const std::string& name) override {
-        const HostResponse response = http_.ask(keyed(
-            {.path = "/server/files/metadata?filename=" + url_component(path_of(name)), .also = {404}}));
+        const HostResponse response = http_.ask(
+            {.path = "/server/files/metadata?filename=" + url_component(path_of(name)), .also = {404}});
         if (response.status == 404) return std::nullopt;
         const auto size = size_at(read_json(http_, response), "/result/size");
         if (!size) return std::nullopt;
@@ -61,7 +62,7 @@ class Moonraker : public NetworkHost {
             return std::vector<FormField>{{"checksum", sent.sha256}};
         };
         MultipartBody body(std::move(form), source.open());
-        HostRequest request = keyed({.method = "POST", .path = "/server/files/upload"});
+        HostRequest request = {.method = "POST", .path = "/server/files/upload"};
         request.headers.push_back("Content-Type: " + body.content_type());
         request.upload = &body;
         if (source.facts()) request.upload_size = body.size_with(source.facts()->size);
@@ -80,10 +81,10 @@ class Moonraker : public NetworkHost {
         const auto server = read_json(http_, get("/server/info"));
         const std::string klippy = text_at(server, "/result/klippy_state");
         status.state = klipper_state(klippy, "");
-        const HostResponse response = http_.ask(keyed(
+        const HostResponse response = http_.ask(
             {.path = "/printer/objects/query?webhooks&print_stats&virtual_sdcard&display_status&extruder&"
                      "heater_bed",
-             .also = {500, 503}}));
+             .also = {500, 503}});
         if (response.status != 200) return status;  // Klipper does not run
         const auto json = read_json(http_, response);
         const nlohmann::json& objects = json_at(json, "/result/status");
@@ -114,13 +115,9 @@ class Moonraker : public NetworkHost {
     bool is_plain() const override { return http_.is_plain(); }
 
   private:
-    HostRequest keyed(HostRequest request) const {
-        if (!http_.access().key.empty()) request.headers.push_back("X-Api-Key: " + http_.access().key);
-        return request;
-    }
-    HostResponse get(const std::string& path) { return http_.ask(keyed({.path = path})); }
+    HostResponse get(const std::string& path) { return http_.ask({.path = path}); }
     /// Requests of the printer are answered when Klipper has done them.
-    void post(const std::string& path) { http_.ask(keyed({.method = "POST", .path = path, .patience = 60})); }
+    void post(const std::string& path) { http_.ask({.method = "POST", .path = path, .patience = 60}); }
     std::string path_of(const std::string& name) const {
         return folder_.empty() ? name : folder_ + "/" + name;
     }

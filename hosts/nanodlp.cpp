@@ -23,7 +23,9 @@ std::optional<double> loose_number_at(const nlohmann::json& json, const char* po
 class NanoDlp : public NetworkHost {
   public:
     NanoDlp(const HostAccess& access, std::string profile, const CancelToken* cancel)
-        : http_(access, cancel), profile_(std::move(profile)) {}
+        : http_(access, cancel), profile_(std::move(profile)) {
+        if (!access.key.empty()) http_.send_always("Authorization: Bearer " + access.key);
+    }
 
     HostFacts facts() override {
         HostFacts facts;
@@ -52,7 +54,7 @@ class NanoDlp : public NetworkHost {
         form.file_field = "ZipFile";
         form.file_name = name;
         MultipartBody body(std::move(form), source.open());
-        HostRequest request = keyed({.method = "POST", .path = "/plate/add", .also = {302, 303}});
+        HostRequest request = {.method = "POST", .path = "/plate/add", .also = {302, 303}};
         request.headers.push_back("Content-Type: " + body.content_type());
         request.upload = &body;
         request.upload_size = body.size_with(source.facts().value().size);
@@ -66,7 +68,7 @@ class NanoDlp : public NetworkHost {
         const auto id = loose_number_at(plate_of(name), "/PlateID");
         if (!id)
             throw HostError(HostFailure::refused, http_.access().name + ": has no plate " + plate_name(name));
-        http_.ask(keyed({.method = "POST", .path = fmt::format("/api/v1/printer/start/{:.0f}", *id)}));
+        http_.ask({.method = "POST", .path = fmt::format("/api/v1/printer/start/{:.0f}", *id)});
     }
 
     HostStatus status() override {
@@ -93,13 +95,8 @@ class NanoDlp : public NetworkHost {
     bool is_plain() const override { return http_.is_plain(); }
 
   private:
-    HostRequest keyed(HostRequest request) const {
-        if (!http_.access().key.empty())
-            request.headers.push_back("Authorization: Bearer " + http_.access().key);
-        return request;
-    }
-    void change(const std::string& path) { http_.ask(keyed({.path = path, .once = true})); }
-    HostResponse get(const std::string& path) { return http_.ask(keyed({.path = path})); }
+    void change(const std::string& path) { http_.ask({.path = path, .once = true}); }
+    HostResponse get(const std::string& path) { return http_.ask({.path = path}); }
 
     static std::string plate_name(const std::string& name) {
         return name.ends_with(ending) ? name.substr(0, name.rfind('.')) : name;

@@ -29,6 +29,7 @@ class OctoPrint : public NetworkHost {
   public:
     OctoPrint(const HostAccess& access, const std::string& storage, const CancelToken* cancel)
         : http_(access, cancel), location_(storage.substr(0, storage.find('/'))) {
+        if (!access.key.empty()) http_.send_always("X-Api-Key: " + access.key);
         if (storage.size() > location_.size()) folder_ = storage.substr(location_.size() + 1);
         while (folder_.ends_with('/')) folder_.pop_back();
     }
@@ -45,7 +46,7 @@ class OctoPrint : public NetworkHost {
     UploadNeeds needs() const override { return UploadNeeds::size; }
 
     std::optional<HostFile> find(const std::string& name) override {
-        const HostResponse response = http_.ask(keyed({.path = address_of(name), .also = {404}}));
+        const HostResponse response = http_.ask({.path = address_of(name), .also = {404}});
         if (response.status == 404) return std::nullopt;
         const auto file = read_json(http_, response);
         const auto size = size_at(file, "/size");
@@ -60,7 +61,7 @@ class OctoPrint : public NetworkHost {
         form.before.emplace_back("print", "false");
         form.file_name = name;
         MultipartBody body(std::move(form), source.open());
-        HostRequest request = keyed({.method = "POST", .path = "/api/files/" + location_});
+        HostRequest request = {.method = "POST", .path = "/api/files/" + location_};
         request.headers.push_back("Content-Type: " + body.content_type());
         request.upload = &body;
         request.upload_size = body.size_with(source.facts().value().size);
@@ -85,7 +86,7 @@ class OctoPrint : public NetworkHost {
         status.elapsed = number_at(job, "/progress/printTime");
         status.left = number_at(job, "/progress/printTimeLeft");
         if (status.state == PrintState::failed) status.message = text_at(job, "/state");
-        const HostResponse response = http_.ask(keyed({.path = "/api/printer", .also = {404, 409}}));
+        const HostResponse response = http_.ask({.path = "/api/printer", .also = {404, 409}});
         if (response.status != 200) return status;  // not connected to its printer
         const auto printer = read_json(http_, response);
         for (const auto& [object, name] : {std::pair("tool0", "nozzle"), std::pair("bed", "bed")}) {
@@ -103,16 +104,12 @@ class OctoPrint : public NetworkHost {
     bool is_plain() const override { return http_.is_plain(); }
 
   private:
-    HostRequest keyed(HostRequest request) const {
-        if (!http_.access().key.empty()) request.headers.push_back("X-Api-Key: " + http_.access().key);
-        return request;
-    }
-    HostResponse get(const std::string& path) { return http_.ask(keyed({.path = path})); }
+    HostResponse get(const std::string& path) { return http_.ask({.path = path}); }
     void post(const std::string& path, const nlohmann::json& command) {
-        http_.ask(keyed({.method = "POST",
-                         .path = path,
-                         .headers = {"Content-Type: application/json"},
-                         .content = command.dump()}));
+        http_.ask({.method = "POST",
+                   .path = path,
+                   .headers = {"Content-Type: application/json"},
+                   .content = command.dump()});
     }
     std::string address_of(const std::string& name) const {
         return "/api/files/" + location_ + "/" + (folder_.empty() ? "" : url_path(folder_) + "/") +

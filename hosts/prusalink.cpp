@@ -23,6 +23,7 @@ class PrusaLink : public NetworkHost {
   public:
     PrusaLink(const HostAccess& access, std::string storage, const CancelToken* cancel)
         : http_(access, cancel), storage_(std::move(storage)) {
+        if (access.user.empty() && !access.key.empty()) http_.send_always("X-Api-Key: " + access.key);
         while (storage_.starts_with('/')) storage_.erase(0, 1);
         while (storage_.ends_with('/')) storage_.pop_back();
     }
@@ -51,7 +52,7 @@ class PrusaLink : public NetworkHost {
     UploadNeeds needs() const override { return UploadNeeds::size; }
 
     std::optional<HostFile> find(const std::string& name) override {
-        const HostResponse response = http_.ask(keyed({.path = address_of(name), .also = {404}}));
+        const HostResponse response = http_.ask({.path = address_of(name), .also = {404}});
         if (response.status == 404) return std::nullopt;
         const auto size = size_at(read_json(http_, response), "/size");
         return size ? std::optional(HostFile{*size}) : std::nullopt;
@@ -60,7 +61,7 @@ class PrusaLink : public NetworkHost {
     UploadFacts upload(const std::string& name, UploadSource& source,
                        const std::function<void(std::uint64_t)>& on_sent) override {
         const std::unique_ptr<UploadBytes> bytes = source.open();
-        HostRequest request = keyed({.method = "PUT", .path = address_of(name)});
+        HostRequest request = {.method = "PUT", .path = address_of(name)};
         request.headers.insert(request.headers.end(), {"Content-Type: application/octet-stream",
                                                        "Print-After-Upload: ?0", "Overwrite: ?1"});
         request.upload = bytes.get();
@@ -71,9 +72,7 @@ class PrusaLink : public NetworkHost {
         return source.facts().value();
     }
 
-    void start(const std::string& name) override {
-        http_.ask(keyed({.method = "POST", .path = address_of(name)}));
-    }
+    void start(const std::string& name) override { http_.ask({.method = "POST", .path = address_of(name)}); }
 
     HostStatus status() override {
         HostStatus status;
@@ -102,12 +101,7 @@ class PrusaLink : public NetworkHost {
     bool is_plain() const override { return http_.is_plain(); }
 
   private:
-    HostRequest keyed(HostRequest request) const {
-        const HostAccess& access = http_.access();
-        if (access.user.empty() && !access.key.empty()) request.headers.push_back("X-Api-Key: " + access.key);
-        return request;
-    }
-    HostResponse get(const std::string& path) { return http_.ask(keyed({.path = path})); }
+    HostResponse get(const std::string& path) { return http_.ask({.path = path}); }
     /// Returns the job; null where there is none.
     nlohmann::json read_job() {
         const HostResponse response = get("/api/v1/job");
@@ -116,7 +110,7 @@ class PrusaLink : public NetworkHost {
     void change_job(const std::string& method, const std::string& what) {
         const auto id = size_at(read_job(), "/id");
         if (!id) throw HostError(HostFailure::refused, http_.access().name + ": prints nothing");
-        http_.ask(keyed({.method = method, .path = fmt::format("/api/v1/job/{}{}", *id, what)}));
+        http_.ask({.method = method, .path = fmt::format("/api/v1/job/{}{}", *id, what)});
     }
     std::string address_of(const std::string& name) const {
         return "/api/v1/files/" + url_path(storage_) + "/" + url_component(name);

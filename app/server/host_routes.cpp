@@ -23,11 +23,7 @@ template <typename What>
 HttpReply with_host(const HttpRequest& request, const What& what) {
     const std::string& name = request.parts.at("host");
     try {
-        for (const KnownHost& host : read_hosts(hosts_file())) {
-            if (host.access.name != name) continue;
-            const auto connected = find_host(name).connect(nullptr);
-            return what(*connected);
-        }
+        if (const auto host = known_host(name)) return what(*host->connect(nullptr));
     } catch (const HostError& error) {
         throw HttpError(502, error.what());
     } catch (const InputError& error) {

@@ -38,10 +38,7 @@ bool flag_of(const Json& request, const char* name) {
 }
 
 KnownHost host_of(const Json& request) {
-    const std::string name = text_member(request, "host");
-    for (const KnownHost& host : read_hosts(hosts_file())) {
-        if (host.access.name == name) return find_host(name);
-    }
+    if (const auto host = known_host(text_member(request, "host"))) return *host;
     throw HttpError(400, "host: accepted: a name in " + hosts_file());
 }
 

@@ -237,6 +237,7 @@ HostResponse HttpConnection::exchange(const HostRequest& request) {
     // A host that refuses an upload says so before its first byte, if it is asked.
     curl_slist* list =
         curl_slist_append(nullptr, request.upload != nullptr ? "Expect: 100-continue" : "Expect:");
+    for (const std::string& header : always_) list = curl_slist_append(list, header.c_str());
     for (const std::string& header : request.headers) list = curl_slist_append(list, header.c_str());
     const std::unique_ptr<curl_slist, decltype(&curl_slist_free_all)> headers(list, curl_slist_free_all);
     Transfer transfer{request, handles_->easy};

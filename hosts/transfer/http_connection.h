@@ -53,6 +53,8 @@ class HttpConnection {
     HttpConnection(const HttpConnection&) = delete;
     HttpConnection& operator=(const HttpConnection&) = delete;
 
+    /// Adds a header to every request from now on: "Name: value".
+    void send_always(std::string header) { always_.push_back(std::move(header)); }
     /// Sends a request and returns the answer, whatever its status. Throws HostError when there is none,
     /// InputError when the host's certificate is not trusted, Interrupted, and what `upload` throws.
     HostResponse exchange(const HostRequest& request);
@@ -68,6 +70,7 @@ class HttpConnection {
     struct Handles;
     HostAccess access_;
     const CancelToken* cancel_;
+    std::vector<std::string> always_;  // headers
     std::unique_ptr<Handles> handles_;
 };
 
