@@ -6,7 +6,7 @@ build=build/headers
 cmake -S . -B $build -G Ninja -DLAMELLA_TESTS=OFF -DLAMELLA_UNITY=OFF >/dev/null
 if [ $# -eq 0 ]; then
     # *-inl.h are parts of the SIMD kernels, compiled once per target.
-    mapfile -t headers < <(git ls-files 'engine/*.h' 'procedural/*.h' 'printers/*.h' 'recipe/*.h' 'bindings/*.h' 'app/*.h' | grep -v -- '-inl\.h$' | sort -u)
+    mapfile -t headers < <(git ls-files 'engine/*.h' 'procedural/*.h' 'printers/*.h' 'recipe/*.h' 'hosts/*.h' 'bindings/*.h' 'app/*.h' | grep -v -- '-inl\.h$' | sort -u)
     set -- "${headers[@]}"
 fi
 # One set of flags that fits all: that of the command's sources.

@@ -18,5 +18,5 @@ fi
 # Sources are headers of a batch. The compiler looks for reserved names, empty bodies and null texts in a fraction of the
 # time that clang-tidy's own checks for them take: those are off in .clang-tidy.
 printf '%s\n' "$@" | xargs -P "$(nproc)" -n 1 clang-tidy -p $build --quiet --checks=-bugprone-suspicious-include \
-    --header-filter="^$PWD/(engine|procedural|printers|recipe|bindings|app)/.*" --extra-arg=-Wreserved-identifier 2>/dev/null
+    --header-filter="^$PWD/(engine|procedural|printers|recipe|hosts|bindings|app)/.*" --extra-arg=-Wreserved-identifier 2>/dev/null
 echo "lint: clang-tidy has nothing to say about $# sources or batches of them"

@@ -54,11 +54,7 @@ LayerPieces tip_pieces(RunRows rows, int layer, int height, std::int32_t length)
     for_touching_pieces(pieces.slivers, pieces.firm, [&](std::uint32_t sliver, std::uint32_t piece) {
         pieces.beside[sliver].push_back(piece);
     });
-    for (auto& list : pieces.beside) {
-        std::ranges::sort(list);
-        const auto rest = std::ranges::unique(list);
-        list.erase(rest.begin(), rest.end());
-    }
+    for (auto& list : pieces.beside) sort_unique(list);
     return pieces;
 }
 

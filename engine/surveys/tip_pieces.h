@@ -35,6 +35,13 @@ LayerPieces tip_pieces(RunRows rows, int layer, int height, std::int32_t length)
 /// Returns the part of row r that a node's runs cover once they are grown, kept off the others of that row.
 RunRows grown_row(const LayerPieces& layer, TipNode node, int r);
 
+/// Sorts a list, and drops what is equal to the entry before it.
+template <typename T>
+void sort_unique(std::vector<T>& list) {
+    std::ranges::sort(list);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 /// Calls visit(a, b) for the components of two layers whose runs overlap or touch, in the same row or the
 /// next.
 template <typename Visit>

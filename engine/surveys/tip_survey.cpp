@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "engine/base/disjoint_sets.h"
@@ -35,13 +36,6 @@ struct GrowingTip {
     std::vector<Node> lies_on{}, beside{};  ///< what it touches where it begins, by too little to be held
     std::vector<PlacedRun> runs{};          ///< grown; none once it is high
 };
-
-template <typename T>
-void sort_out(std::vector<T>& list) {
-    std::ranges::sort(list);
-    const auto rest = std::ranges::unique(list);
-    list.erase(rest.begin(), rest.end());
-}
 
 class TipSurveyor : public LayerPass {
   public:
@@ -123,7 +117,7 @@ std::vector<TipSurveyor::Contact> TipSurveyor::contacts_with_below(const LayerPi
     for_touching_pieces(layer.slivers, below_.slivers, [&](std::uint32_t a, std::uint32_t b) {
         contacts.emplace_back(piece_of(a), below_.sliver_nodes[b]);
     });
-    sort_out(contacts);
+    sort_unique(contacts);
     return contacts;
 }
 
@@ -176,7 +170,7 @@ std::vector<TipSurveyor::Contact> TipSurveyor::holding_contacts(const LayerPiece
     const RunRows overlap = common(layer.rows, below_.rows);
     add_firm_contacts(layer, opened(overlap, least_rows_, least_length_), contacts);
     add_sliver_contacts(layer, overlap, contacts);
-    sort_out(contacts);
+    sort_unique(contacts);
     return contacts;
 }
 
@@ -196,17 +190,18 @@ void TipSurveyor::own_pieces(LayerPieces& layer) {
     const auto first_new = static_cast<Node>(sets_.size());
     const std::vector<Contact> touching = contacts_with_below(layer);
     const std::vector<Contact> holding = options_.contact > 0 ? holding_contacts(layer) : touching;
-    const auto of = [](const std::vector<Contact>& contacts, std::uint32_t piece) {
-        return std::ranges::equal_range(contacts, piece, {}, &Contact::first);
+    const auto of = [](const std::vector<Contact>& contacts,
+                       std::uint32_t piece) -> std::span<const Contact> {
+        const auto begin = std::ranges::lower_bound(contacts, piece, {}, &Contact::first);
+        return {begin, std::ranges::upper_bound(begin, contacts.end(), piece, {}, &Contact::first)};
     };
     const auto own = [&](std::uint32_t piece) {
         const auto held_by = of(holding, piece);
         if (!held_by.empty()) {
-            return std::ranges::min(held_by, {},
-                                    [&](const Contact& contact) {
-                                        return std::pair(rank(contact.second), contact.second);
-                                    })
-                .second;
+            const auto age = [&](const Contact& contact) {
+                return std::pair(rank(contact.second), contact.second);
+            };
+            return std::ranges::min_element(held_by, {}, age)->second;
         }
         const Node node = sets_.add();
         if (is_lowest) {
@@ -245,7 +240,7 @@ void TipSurveyor::write(const Layer& layer, LayerProduct& product) {
     std::vector<Node> tips;
     for (const auto* nodes : {&pieces.firm_nodes, &pieces.sliver_nodes})
         std::ranges::copy_if(*nodes, std::back_inserter(tips), [&](Node node) { return is_tip(node); });
-    sort_out(tips);
+    sort_unique(tips);
     for (const Node tip : tips) include(tip, pieces, layer);
     below_ = std::move(pieces);
 }
