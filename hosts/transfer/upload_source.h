@@ -27,6 +27,7 @@ class UploadBytes {
     /// nothing at the end. Throws what kept the bytes from being made.
     virtual std::optional<std::size_t> take(std::span<char> out) = 0;
     /// Sets what is called, from any thread, once bytes or the end have come after take returned 0.
+    // Overriders keep it. NOLINTNEXTLINE(performance-unnecessary-value-param)
     virtual void on_ready(std::function<void()> /*wake*/) {}
 };
 
