@@ -261,6 +261,10 @@ struct HttpServer::State {
               "default-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri 'none'; "
               "form-action 'none'"}});
         server.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+            // The library would cut a reply to the range asked for, and leave its status and its stream as
+            // they are. A browser that resumes takes the piece for the whole. A server may ignore ranges (RFC
+            // 9110, 14.2). The library owns the request, and no object of it is constant.
+            const_cast<httplib::Request&>(request).ranges.clear();  // NOLINT(*-const-cast)
             return may_pass(request, response) ? httplib::Server::HandlerResponse::Unhandled
                                                : httplib::Server::HandlerResponse::Handled;
         });

@@ -26,8 +26,9 @@ RunRows opened(const RunRows& rows, int height, std::int32_t length) {
     for (int k = 1; k < height; ++k) {
         RunRows next;
         for (int l = 0; l < lines; ++l) {
-            const bool has_next = l + k < lines;
-            const auto line = has_next ? rows.line(static_cast<std::size_t>(l + k)) : std::span<const Run>();
+            const int above = l + k;
+            const auto line =
+                above < lines ? rows.line(static_cast<std::size_t>(above)) : std::span<const Run>();
             intersect_line(inner.line(static_cast<std::size_t>(l)), line, next);
         }
         inner = std::move(next);

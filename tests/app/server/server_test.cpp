@@ -1,4 +1,4 @@
-// The server's interface: who may ask, what is answered, and that layers are those of the command.
+// The server's interface: what is answered, and that layers are those of the command.
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -25,8 +25,6 @@ const std::string ball =
     "[part]\nshape = \"sphere\"\nradius = 5\n[layers]\nheight = 0.1\n[printer]\nprofile = \"prusa-sl1s\"\n";
 const std::string foam = ball + "[foam]\ncell = 2\nbeam = 0.3\n";
 
-int status_of(const httplib::Result& result) { return result ? result->status : 0; }
-
 template <typename T>
 T number_at(const std::string& bytes, std::size_t at) {
     T value{};
@@ -45,62 +43,6 @@ Json finished(const RunningServer& server, int output) {
 }
 
 }  // namespace
-
-TEST_CASE("only who has the token and comes from this machine's page is answered", "[server]") {
-    const RunningServer server;
-    httplib::Client client = server.client();
-    CHECK(status_of(client.Get("/api/version")) == 401);
-    CHECK(status_of(client.Get("/api/version?token=0123456789abcdee")) == 401);
-    CHECK(status_of(client.Get(("/api/version?token=" + test_token).c_str())) == 200);
-    CHECK(status_of(client.Post("/api/jobs", "{}", "application/json")) == 401);
-    CHECK(server.send("GET", "/api/version", "", {{"Origin", "http://example.com"}})->status == 403);
-    const std::string own = "127.0.0.1:" + std::to_string(server.port());
-    CHECK(server.send("GET", "/api/version", "", {{"Origin", "http://" + own}})->status == 200);
-    CHECK(server.send("GET", "/api/version", "", {{"Host", "example.com"}})->status == 403);
-    CHECK(server.send("GET", "/api/version", "", {{"Host", "localhost:1"}})->status == 200);
-    const auto reply = server.send("GET", "/api/version");
-    CHECK(mentions(reply->get_header_value("Content-Security-Policy"), "default-src 'self'"));
-    CHECK(!mentions(reply->get_header_value("Content-Security-Policy"), "unsafe"));
-}
-
-TEST_CASE("what is no request of the interface gets one clear message", "[server]") {
-    const RunningServer server;
-    const auto message = [&](const std::string& method, const std::string& path, const std::string& body,
-                             int status) {
-        const auto reply = server.send(method, path, body);
-        INFO(method << " " << path << " " << body.substr(0, 60));
-        CHECK(reply->status == status);
-        const Json json = Json::parse(reply->body);
-        CHECK(!json["message"].get<std::string>().empty());
-        return json["message"].get<std::string>();
-    };
-    message("GET", "/api/nothing", "", 404);
-    message("GET", "/etc/passwd", "", 404);
-    message("GET", "/../../etc/passwd", "", 404);
-    message("GET", "/" + std::string(7000, 'a'), "", 404);
-    message("DELETE", "/api/version", "", 405);
-    message("POST", "/api/jobs", "", 400);
-    message("POST", "/api/jobs", "[]", 400);
-    message("POST", "/api/jobs", "{\"text\": 3}", 400);
-    message("POST", "/api/jobs", std::string(100000, '['), 400);
-    message("POST", "/api/jobs", "{\"text\": \"\", \"sequence\": \"one\"}", 400);
-    message("POST", "/api/jobs", "{\"text\": \"" + std::string(9U << 20, ' ') + "\"}", 413);
-    message("GET", "/api/jobs/none", "", 404);
-    message("GET", "/api/outputs/7", "", 404);
-    message("GET", "/api/outputs/seven", "", 404);
-    const std::string job = server.build(ball);
-    for (const char* layer : {"-1", "100", "x", "1e1", ""})
-        message("GET", "/api/jobs/" + job + "/layers/" + layer + "/mask.png", "", 404);
-    const std::string mask = "/api/jobs/" + job + "/layers/3/mask.png";
-    CHECK(mentions(message("GET", mask + "?width=9000", "", 400), "width: \"9000\" is not accepted"));
-    message("GET", mask + "?width=8192&x0=0&x1=0.001&y0=-5&y1=5", "", 400);
-    message("GET", mask + "?x0=5&x1=-5", "", 400);
-    message("GET", mask + "?x0=nan", "", 400);
-    message("GET", "/api/jobs/" + job + "/layers/3/runs?columns=0", "", 400);
-    message("GET", "/api/jobs/" + job + "/layers/3/contours?what=all", "", 400);
-    message("GET", "/api/jobs/" + job + "/volume?n=5000", "", 400);
-    CHECK(mentions(message("GET", "/api/jobs/" + job + "/layers/3/paths", "", 400), "lays no beads"));
-}
 
 TEST_CASE("mistakes of recipes are told with their lines", "[server]") {
     const RunningServer server;
@@ -224,21 +166,6 @@ TEST_CASE("layers are those of the job, in every form", "[server]") {
         CHECK(coloured.size() == sent.size() + 3 * 256 + 12);
         CHECK(mentions(coloured.substr(0, 64), "PLTE"));
     }
-}
-
-TEST_CASE("replies about layers may be kept for ever", "[server]") {
-    const RunningServer server;
-    const std::string path = "/api/jobs/" + server.build(ball) + "/layers/30/mask.png";
-    const auto first = server.send("GET", path);
-    CHECK(mentions(first->get_header_value("Cache-Control"), "immutable"));
-    const std::string tag = first->get_header_value("ETag");
-    REQUIRE(tag.size() > 20);
-    const auto again = server.send("GET", path, "", {{"If-None-Match", tag}});
-    CHECK(again->status == 304);
-    CHECK(again->body.empty());
-    CHECK(server.send("GET", path + "?width=50", "", {{"If-None-Match", tag}})->status == 200);
-    CHECK(server.send("GET", path)->body == first->body);
-    CHECK(server.send("GET", "/api/version")->get_header_value("Cache-Control") == "no-store");
 }
 
 TEST_CASE("curve and volume measure a ball", "[server]") {
