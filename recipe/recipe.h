@@ -243,6 +243,7 @@ struct RepairRecipe {
     double gap = 0;        ///< gaps narrower than this within a layer are filled
     double join = 0;       ///< diameter of struts that join disconnected pieces
     double trim = -1;      ///< tips that begin in the air are removed if no higher than this; negative: usual
+    double hold = -1;      ///< diameter of struts below the tips that stay; negative: usual
 };
 
 /// The kind of supports; their dimensions are part of the printer's profile.

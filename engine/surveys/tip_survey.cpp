@@ -268,9 +268,11 @@ void TipSurveyor::include(Node number, const LayerPieces& pieces, const Layer& l
     }
     const double area = static_cast<double>(length) / run_unit * options_.pitch * options_.pitch;
     tip.volume += area * layer.thickness();
+    const dvec3 within(on_band(band_, 0.5 * (longest.begin + longest.end), row + 0.5), layer.z());
+    if (index == found.first_layer) found.begin = within;
     if (area > found.area) {
         found.area = area;
-        found.at = dvec3(on_band(band_, 0.5 * (longest.begin + longest.end), row + 0.5), layer.z());
+        found.at = within;
     }
     constexpr double rounding = 1e-9;
     if (index > found.first_layer && found.height > options_.height + rounding) {
@@ -364,6 +366,7 @@ TipSurvey TipSurveyor::result() {
     keep_what_others_lie_on();
     std::vector<PlacedRun> runs;
     for (auto& [node, tip] : tips_) {
+        if (tip.stays) survey.begins.push_back(tip.found.begin);
         if (tip.is_high && tip.hangs_by_hair) continue;
         if (tip.stays) {
             ++(tip.is_high ? survey.higher : survey.holding);

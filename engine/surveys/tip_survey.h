@@ -14,6 +14,7 @@ namespace lamella {
 /// began earlier.
 struct HangingTip {
     dvec3 at{0};          ///< a point of its largest layer, mm
+    dvec3 begin{0};       ///< a point of its first layer, mm
     double height = 0;    ///< of its layers together, mm
     double area = 0;      ///< of its largest layer, mm^2
     int first_layer = 0;  ///< [first_layer, end_layer)
@@ -34,6 +35,7 @@ struct TipSurvey {
     std::size_t higher = 0;        ///< tips that begin in the air and stay because they are too high
     std::size_t holding = 0;       ///< tips that stay because pieces of the part hang together by them alone
     std::vector<HangingTip> kept;  ///< the highest few of those that stay
+    std::vector<dvec3> begins;     ///< where tips that stay begin in the air or on less than what holds, mm
     /// Runs of the tips that are to be removed, grown by two pitches within their layers. Never null. Layer l
     /// of the job lies between heights l and l + 1 of the boxes' grid.
     std::shared_ptr<const RunBoxes> removed;

@@ -28,7 +28,8 @@ struct RepairReport {
     std::optional<JoinSurvey> joins;
     std::optional<CheckResult> thickened, filled;  ///< findings before the repair
     std::optional<TipSurvey> tips;
-    double trim = 0;  ///< mm: up to which tips were trimmed
+    double trim = 0;          ///< mm: up to which tips were trimmed
+    std::vector<Beam> holds;  ///< struts from tips that stay down to the part, as printed
 };
 
 struct BuiltJob {

@@ -10,6 +10,7 @@
 #include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 #include "engine/surveys/island_survey.h"
+#include "procedural/scaffold/tip_struts.h"
 #include "recipe/build/build_process.h"
 
 namespace lamella {
@@ -48,16 +49,36 @@ void join_pieces(const Recipe& recipe, BuiltJob& built, RepairReport& report, co
     built.job = make_processed(recipe, built.designed, built.layers.plan);
 }
 
-void trim_tips(double height, const BuiltJob& built, RepairReport& report, const RepairOptions& options) {
+/// Finds the tips up to `height` mm, with rows fine enough for features that are `size` mm thick.
+void find_tips(double height, double size, const BuiltJob& built, RepairReport& report,
+               const RepairOptions& options) {
     constexpr double widest = 0.2;  // of what rows of a fine pitch are spent on, mm
     TipSurveyOptions survey;
-    survey.pitch = pitch_for(built.job, std::min(height, widest));
+    survey.pitch = pitch_for(built.job, std::min(size, widest));
     survey.height = height;
     survey.threads = options.threads;
     survey.on_progress = options.on_progress;
     survey.cancel = options.cancel;
     report.tips = survey_tips(built.job, survey);
     report.trim = height;
+}
+
+/// Makes struts from the tips that stay down to the part, within the body.
+void hold_tips(const Recipe& recipe, BuiltJob& built, RepairReport& report, double diameter) {
+    const FieldPtr body = make_scaled(recipe, built.designed, built.outside);
+    TipStrutOptions options;
+    options.radius = 0.5 * diameter;
+    options.layer_height = built.layers.plan.least_height();
+    std::vector<FieldPtr> solids;
+    for (const dvec3 tip : report.tips->begins) {
+        const auto strut = strut_below(tip, *built.job.part, *body, options);
+        if (!strut) continue;
+        report.holds.push_back(*strut);
+        solids.push_back(make_round_cone(*strut));
+    }
+    if (solids.empty()) return;
+    const FieldPtr struts = make_intersection({make_union(std::move(solids)), body});
+    built.job.part = make_union({built.job.part, struts});
 }
 
 /// Returns the findings of a check in the job before outlines are repaired.
@@ -121,28 +142,40 @@ std::string mended_text(const char* name, const CheckResult& result, const char*
         worst.at.x, worst.at.y, worst.at.z);
 }
 
+/// Returns the thickness of a self-supporting skin's struts, mm; 0 without such a skin.
+double self_supporting_strut(const Recipe& recipe) {
+    constexpr double usual = 0.8;
+    if (!recipe.skin || !recipe.skin->self_supporting) return 0;
+    const GradedNumber& strut = recipe.skin->strut;
+    return strut.is_formula() ? usual : strut.number();
+}
+
 }  // namespace
 
 void repair_job(const Recipe& recipe, BuiltJob& built, const RepairOptions& options) {
-    const double trim = trim_height(recipe);
-    if (!recipe.repair && trim == 0) return;
+    const double trim = trim_height(recipe), hold = hold_diameter(recipe);
+    if (!recipe.repair && trim == 0 && hold == 0) return;
     const RepairRecipe repair = recipe.repair.value_or(RepairRecipe());
     RepairReport report;
     if (repair.join > 0) join_pieces(recipe, built, report, options);
     if (repair.thickness > 0)
         report.thickened = count_faults(recipe, built, Check::thickness, repair.thickness, options);
     if (repair.gap > 0) report.filled = count_faults(recipe, built, Check::gaps, repair.gap, options);
-    if (trim > 0) trim_tips(trim, built, report, options);
+    if (trim > 0 || hold > 0) find_tips(trim, trim > 0 ? trim : hold, built, report, options);
     built.repairs = std::move(report);
-    built.job.part = without_tips(built.job.part, built);
+    if (trim > 0) built.job.part = without_tips(built.job.part, built);
+    if (hold > 0) hold_tips(recipe, built, *built.repairs, hold);
 }
 
 double trim_height(const Recipe& recipe) {
     if (recipe.repair && recipe.repair->trim >= 0) return recipe.repair->trim;
-    constexpr double share_of_strut = 0.25, usual_strut = 0.8;
-    if (!recipe.skin || !recipe.skin->self_supporting) return 0;
-    const GradedNumber& strut = recipe.skin->strut;
-    return share_of_strut * (strut.is_formula() ? usual_strut : strut.number());
+    constexpr double share_of_strut = 0.25;
+    return share_of_strut * self_supporting_strut(recipe);
+}
+
+double hold_diameter(const Recipe& recipe) {
+    if (recipe.repair && recipe.repair->hold >= 0) return recipe.repair->hold;
+    return self_supporting_strut(recipe);
 }
 
 FieldPtr without_tips(FieldPtr solid, const BuiltJob& built) {
@@ -164,6 +197,12 @@ nlohmann::ordered_json repairs_json(const RepairReport& report) {
     if (report.thickened) json["thickened"] = mended_json(*report.thickened);
     if (report.filled) json["filled"] = mended_json(*report.filled);
     if (report.tips) json["trimmed"] = tips_json(*report.tips, report.trim);
+    if (!report.holds.empty()) {
+        auto struts = nlohmann::ordered_json::array();
+        for (const Beam& strut : report.holds)
+            struts.push_back({{"from_mm", json_triple(strut.a)}, {"to_mm", json_triple(strut.b)}});
+        json["held"] = std::move(struts);
+    }
     return json;
 }
 
@@ -180,6 +219,10 @@ std::string repairs_text(const RepairReport& report) {
     if (report.thickened) text += mended_text("thickness  ", *report.thickened, "thinner", "made thicker");
     if (report.filled) text += mended_text("gaps       ", *report.filled, "narrower", "filled");
     if (report.tips) text += tips_text(*report.tips, report.trim);
+    if (!report.holds.empty()) {
+        text += fmt::format("hold       {} {} from tips that stay down to the part\n", report.holds.size(),
+                            report.holds.size() == 1 ? "strut" : "struts");
+    }
     return text;
 }
 

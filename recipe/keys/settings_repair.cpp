@@ -36,6 +36,12 @@ void add_repair_settings(std::vector<Setting>& table) {
              "Tips that begin in the air are removed up to where they join the part, if they are no higher "
              "than this or a single layer; 0: none; negative: the default, a quarter of the struts of a "
              "self-supporting skin, else 0."});
+    add_repair_row<&R::hold>(
+        table, "hold", "--repair-hold",
+        {.limits = {-1, lengths.hi},
+         .help =
+             "Diameter of struts from the tips that begin in the air and stay down to the part, within the "
+             "body; 0: none; negative: the default, the struts of a self-supporting skin, else 0."});
 }
 
 }  // namespace lamella

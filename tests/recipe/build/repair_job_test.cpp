@@ -118,6 +118,29 @@ TEST_CASE("tips are trimmed as printed, and the higher ones told", "[repair]") {
     CHECK(found(repaired(twice + "[repair]\ntrim = 0.4\n").job, Check::islands, 0.4).count == 0);
 }
 
+TEST_CASE("higher tips get struts down to the part", "[repair]") {
+    // A box with a hall in it: a floor, a wall, and a roof with a tongue that hangs from it.
+    const std::string hall =
+        "[part]\nshape = \"box\"\nsize = [6, 4, 4]\n[layers]\nheight = 0.05\n[[field]]\nname = \"hall\"\n"
+        "formula = \"max(max(-1.5 - z, z - 1.5), max(-1 - x, min(0.4 - abs(x - 2), z + 0.75)))\"\n"
+        "bounds = [[-1, -2, -1.5], [3, 2, 1.5]]\n[[region]]\nfield = \"hall\"\nmake = \"empty\"\n";
+    REQUIRE(found(repaired(hall).job, Check::islands, 0.4).count == 1);
+    const BuiltJob left = repaired(hall + "[repair]\ntrim = 0.2\n");
+    CHECK(left.repairs->tips->higher == 1);
+    CHECK(left.repairs->holds.empty());
+    const BuiltJob held = repaired(hall + "[repair]\ntrim = 0.2\nhold = 0.8\n");
+    REQUIRE(held.repairs->holds.size() == 1);
+    CHECK(held.repairs->holds.front().b.z == Approx(-1.7).margin(0.06));
+    CHECK(found(held.job, Check::islands, 0.4).count == 0);
+    CHECK(found(held.job, Check::connectivity, 0.4).count == 0);
+    CHECK(repairs_json(*held.repairs)["held"].size() == 1);
+    CHECK_THAT(repairs_text(*held.repairs), Catch::Contains("hold       1 strut"));
+    // A strut never leaves the body; without trimming, what stays is the same.
+    CHECK(repaired(hook + "[process]\nscale = [2, 2, 2]\n[repair]\ntrim = 0.3\nhold = 1\n")
+              .repairs->holds.empty());
+    CHECK(repaired(hall + "[repair]\nhold = 0.8\n").repairs->holds == held.repairs->holds);
+}
+
 TEST_CASE("self-supporting skins are trimmed unless the recipe says otherwise", "[repair]") {
     const std::string skin =
                           "[part]\nshape = \"sphere\"\nradius = 9\n[skin]\nthickness = 1\npattern = "
@@ -129,6 +152,10 @@ TEST_CASE("self-supporting skins are trimmed unless the recipe says otherwise", 
     CHECK(trim_height(recipe_of(held + "[repair]\ntrim = 0\n")) == 0);
     CHECK(trim_height(recipe_of(skin + "[repair]\ntrim = 0.4\n")) == Approx(0.4));
     CHECK(trim_height(recipe_of(skin + "[repair]\njoin = 1\n")) == 0);
+    CHECK(hold_diameter(recipe_of(skin)) == 0);
+    CHECK(hold_diameter(recipe_of(held)) == 0.6);
+    CHECK(hold_diameter(recipe_of(held + "[repair]\nhold = 0\n")) == 0);
+    CHECK(hold_diameter(recipe_of(skin + "[repair]\nhold = 0.5\n")) == 0.5);
 }
 
 TEST_CASE("repairs that make no sense are refused", "[repair]") {

@@ -1,0 +1,67 @@
+// Struts below tips, held against the shortest ways that boxes leave.
+#include "procedural/scaffold/tip_struts.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/solids/csg.h"
+#include "engine/solids/primitives.h"
+
+namespace tip_struts_test {
+
+using namespace lamella;
+
+namespace {
+
+const FieldPtr body = make_box({{-10, -10, -1}, {10, 10, 10}});
+const FieldPtr plate = make_box({{-10, -10, 3}, {10, 10, 4}});  // hangs over the rest
+constexpr dvec3 tip{0, 0, 3.025};
+
+std::optional<Beam> strut(const FieldPtr& below, const FieldPtr& within = body) {
+    return strut_below(tip, *make_union({plate, below}), *within, TipStrutOptions());
+}
+
+}  // namespace
+
+TEST_CASE("a strut goes straight down where solid lies below", "[supports]") {
+    const auto found = strut(make_box({{-10, -10, -1}, {10, 10, 0}}));
+    REQUIRE(found);
+    CHECK(found->a == tip);
+    CHECK(found->ra == 0.4);
+    CHECK(glm::length(dvec2(found->b)) < 1e-9);
+    CHECK(found->b.z < 0);
+    CHECK(found->b.z == Approx(-0.2).margin(0.06));
+    CHECK(found->rb == 0.2);
+}
+
+TEST_CASE("a strut leans no more than 45 degrees, to what is nearest so", "[supports]") {
+    // A wall 2 mm aside, and one 1 mm aside on the other side that is lower.
+    const FieldPtr near = make_box({{2, -10, -1}, {10, 10, 2}});
+    const auto leaning = strut(near);
+    REQUIRE(leaning);
+    const dvec3 way = leaning->b - leaning->a;
+    CHECK(glm::length(dvec2(way)) <= -way.z * (1 + 1e-9));
+    CHECK(near->value(leaning->b) < 0);
+    const auto shorter = strut(make_union({near, make_box({{-10, -10, -1}, {-1, 10, 2}})}));
+    REQUIRE(shorter);
+    CHECK(shorter->b.x < -1);
+    CHECK(glm::length(shorter->b - tip) < glm::length(way));
+    // At 45 degrees the ray sinks below the top of this one before it is there.
+    CHECK(!strut(make_box({{5, -10, 0}, {10, 10, 2}})));
+}
+
+TEST_CASE("no strut leaves the body, is too long, or stands on too little", "[supports]") {
+    const FieldPtr floor = make_box({{-10, -10, -1}, {10, 10, 0}});
+    CHECK(!strut(floor, make_difference(body, make_box({{-10, -10, 1}, {10, 10, 2}}))));
+    CHECK(!strut_below(tip, *make_union({plate, floor}), *body, {.radius = 0.4, .reach = 2.9}));
+    CHECK(!strut(make_box({{-10, -10, 1}, {10, 10, 1.25}})));
+    CHECK(!strut(make_empty()));
+}
+
+TEST_CASE("solid beside a tip is no solid below it", "[supports]") {
+    // A wall from the bed to the plate's middle: the strut meets it below the first layer, not within.
+    const auto found = strut(make_box({{0.01, -10, -1}, {10, 10, 3.5}}));
+    REQUIRE(found);
+    CHECK(found->a.z - found->b.z > 0.05);
+}
+
+}  // namespace tip_struts_test
