@@ -31,9 +31,9 @@ for arch in "${architectures[@]}"; do
     echo "Building for $arch"
     cmake -S . -B "$build" "${options[@]}" >/dev/null
     cmake --build "$build" --target lamella_command lamella_c lamella_images -- --quiet
+    rm -rf "$build/debs"
     (cd "$build" && cpack -G DEB -B "$PWD/debs" -D SHLIBDEPS_EXECUTABLE="$OLDPWD/packaging/shlibdeps.sh" >cpack.log) ||
         { cat "$build/cpack.log" >&2; exit 3; }
-    rm -f "$build"/debs/*-dbgsym*
     cp "$build"/debs/*.deb "$out/"
 
     rm -rf "$build/stage"
