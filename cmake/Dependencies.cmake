@@ -15,6 +15,14 @@ if(NOT TARGET glm::glm)
 endif()
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET GLOBAL libhwy)
 add_library(hwy::hwy ALIAS PkgConfig::hwy)
+# On ARM: SVE vectors have no size at compile time, and our kernels keep vectors in structs. NEON of 32 bits has no doubles,
+# flushes small numbers to zero, and divides only by about: kernels run without vectors there.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)")
+    target_compile_definitions(PkgConfig::hwy INTERFACE
+        "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm")
+    target_compile_definitions(PkgConfig::hwy INTERFACE "HWY_DISABLED_TARGETS=HWY_NEON")
+endif()
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET GLOBAL libzip)
 add_library(libzip::zip ALIAS PkgConfig::libzip)
 pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET GLOBAL libdeflate)

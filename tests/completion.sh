@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Presses TAB in bash and zsh with the completion of an installed lamella, and reads its manual pages for faults.
+# Presses TAB in bash, zsh and fish with the completion of an installed lamella, and reads its manual pages for faults.
 # Usage: tests/completion.sh PREFIX
 set -euo pipefail
 cd "$(dirname "$0")/.."
 prefix=$(realpath "$1")
 bash_script=$prefix/share/bash-completion/completions/lamella
 zsh_folder=$prefix/share/zsh/site-functions
+fish_script=$prefix/share/fish/vendor_completions.d/lamella.fish
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 export XDG_CONFIG_HOME=$scratch/config
@@ -63,7 +64,7 @@ expect "--json" slice part.toml --json
 expect "" slice --cell ""
 expect "foam" keys fo
 expect "slice" man sl
-expect "bash zsh" completion ""
+expect "bash fish zsh" completion ""
 expect "pla pla-matte" slice --material pla
 [ "$(offered slice part.toml "" | grep -c -- '^--')" -gt 250 ] || fail "bash: slice has no options"
 
@@ -108,6 +109,27 @@ press "lamella dump " "seeds" "beams"
 press "lamella join part.toml --shards a b read" "ready.gcode"
 press "lamella print --dry" "--dry-run"
 
+# fish says what it would offer.
+fish --no-execute "$fish_script"
+press_fish() {
+    local line=$1 found
+    shift
+    found=$(fish --no-config -c 'source $argv[1]; complete -C $argv[2]' "$fish_script" "$line")
+    for want; do
+        cut -f 1 <<<"$found" | grep -qxF -e "$want" || fail "fish: $line: does not offer $want but $found"
+    done
+}
+press_fish "lamella sup" supports
+press_fish "lamella " slice homogenize
+press_fish "lamella slice --skin-thr" --skin-threshold
+press_fish "lamella slice --foam vor" voronoi
+press_fish "lamella slice " part.toml PART2.STL folder/
+press_fish "lamella slice --printer my" my-own
+press_fish "lamella slice part.toml -o out.sl1@prusa-m" out.sl1@prusa-mk4
+press_fish "lamella man sl" slice
+press_fish "lamella print --dry" --dry-run
+press_fish "lamella completion " bash zsh fish
+
 # Pages have no date: the same program makes the same page.
 pages=("$prefix"/share/man/man1/lamella*.1)
 commands=$("$prefix/bin/lamella" man | sed -n '/^\.SH COMMANDS/,/^\.SH OPTIONS/p' | grep -c '^.TP')
@@ -119,4 +141,4 @@ page=$(mandoc -T ascii "$prefix/share/man/man1/lamella-slice.1" | col -b)
 for words in "--no-drop-islands" "Recipe [foam]" "lamella slice insole.toml -o insole/"; do
     grep -qF -e "$words" <<<"$page" || fail "the page of slice does not show $words"
 done
-echo "completion: bash and zsh complete, ${#pages[@]} manual pages"
+echo "completion: bash, zsh and fish complete, ${#pages[@]} manual pages"

@@ -15,16 +15,19 @@ void add_completion_command(CLI::App& root) {
     const auto shell = std::make_shared<std::string>();
     command.add_option("SHELL", *shell, "Shell that the script is for")
         ->required()
-        ->check(CLI::IsMember({"bash", "zsh"}))
+        ->check(CLI::IsMember({"bash", "zsh", "fish"}))
         ->type_name("");
     finish_command(command,
                    "  source <(lamella completion bash)     # in ~/.bashrc\n"
                    "  source <(lamella completion zsh)      # in ~/.zshrc, below compinit\n"
-                   "An installed program has both scripts where the shells look for them.");
+                   "  lamella completion fish | source      # in ~/.config/fish/config.fish\n"
+                   "An installed program has all scripts where the shells look for them.");
     command.callback([&root, shell] {
         const ProgramReference reference = read_reference(root);
         TextOutput out("");
-        out.write(*shell == "bash" ? bash_completion(reference) : zsh_completion(reference));
+        out.write(*shell == "bash"  ? bash_completion(reference)
+                  : *shell == "zsh" ? zsh_completion(reference)
+                                    : fish_completion(reference));
         out.close();
     });
 }

@@ -14,4 +14,7 @@ std::string bash_completion(const ProgramReference& reference);
 /// Returns the script for zsh: a file `_lamella` on its fpath, or to be sourced after compinit.
 std::string zsh_completion(const ProgramReference& reference);
 
+/// Returns the script for fish, 3.5 or later. All places of a command offer what any of them takes.
+std::string fish_completion(const ProgramReference& reference);
+
 }  // namespace lamella

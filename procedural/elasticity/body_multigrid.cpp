@@ -1,11 +1,13 @@
 // The cycle: Chebyshev smoothing, restriction, a dense solve on the coarsest grid, interpolation.
 #include "procedural/elasticity/body_multigrid.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "procedural/elasticity/dense_symmetric.h"
 #include "procedural/elasticity/galerkin.h"
 #include "procedural/elasticity/grid_transfer.h"
 
@@ -27,16 +29,13 @@ constexpr double direct_noise = 1e-7;
 /// body of such elements, whatever their moduli: both K and its diagonal are sums over elements.
 template <std::size_t Dim>
 double greatest_of(const GridElement<Dim>& element) {
-    constexpr auto n = static_cast<Eigen::Index>(GridElement<Dim>::unknowns);
-    Eigen::MatrixXd k(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const auto& s = element.stiffness;
-            const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-            k(i, j) = s[a][b] / std::sqrt(s[a][a] * s[b][b]);
-        }
+    constexpr std::size_t n = GridElement<Dim>::unknowns;
+    std::vector<double> k(n * n);
+    const auto& s = element.stiffness;
+    for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t b = 0; b < n; ++b) k[b * n + a] = s[a][b] / std::sqrt(s[a][a] * s[b][b]);
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    return greatest_eigenvalue(std::move(k), n);
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ struct BodyMultigrid<Dim>::Level {
     Vector b, x, next, step;
     // Of the coarsest grid: the unknowns that move, and their stiffness.
     std::vector<std::pair<std::size_t, std::size_t>> unknowns;
-    Eigen::LLT<Eigen::MatrixXd> factors;
+    DenseCholesky factors;
 
     /// Calls combine(d, first, last, force) for each run and direction: force[i - first] is (K at)_i.
     template <typename Combine>
@@ -199,47 +198,47 @@ void BodyMultigrid<Dim>::Level::find_rest() {
 template <std::size_t Dim>
 void BodyMultigrid<Dim>::Level::factorise() {
     unknowns.clear();
-    std::vector<Eigen::Index> index(Dim * grid.size(), -1);
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> index(Dim * grid.size(), none);
     for (std::size_t node = 0; node < grid.size(); ++node) {
         for (std::size_t d = 0; d < Dim; ++d) {
             if (!(inverse.along[d][node] > 0)) continue;
-            index[Dim * node + d] = static_cast<Eigen::Index>(unknowns.size());
+            index[Dim * node + d] = unknowns.size();
             unknowns.emplace_back(node, d);
         }
     }
-    const auto size = static_cast<Eigen::Index>(unknowns.size());
+    const std::size_t size = unknowns.size();
     const auto steps = grid.neighbour_steps();
-    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);
-    for (Eigen::Index row = 0; row < size; ++row) {
-        const auto [node, i] = unknowns[static_cast<std::size_t>(row)];
+    std::vector<double> k(size * size);
+    for (std::size_t row = 0; row < size; ++row) {
+        const auto [node, i] = unknowns[row];
         for (std::size_t n = 0; n < steps.size(); ++n) {
             const auto other = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(node) + steps[n]);
             for (std::size_t j = 0; j < Dim; ++j) {
-                const Eigen::Index column = index[Dim * other + j];
-                if (column >= 0)
-                    k(row, column) = static_cast<double>(stencils->at(node, (n * Dim + i) * Dim + j));
+                const std::size_t column = index[Dim * other + j];
+                if (column != none)
+                    k[column * size + row] = static_cast<double>(stencils->at(node, (n * Dim + i) * Dim + j));
             }
         }
     }
-    const Eigen::VectorXd diagonal = k.diagonal();
     for (double share = direct_noise; share < 1; share *= 10) {
-        k.diagonal() = (1 + share) * diagonal;
-        factors.compute(k);
-        if (factors.info() == Eigen::Success) break;
+        std::vector<double> raised = k;
+        for (std::size_t i = 0; i < size; ++i) raised[i * size + i] = (1 + share) * k[i * size + i];
+        if (factors.factorise(std::move(raised), size)) break;
     }
 }
 
 template <std::size_t Dim>
 void BodyMultigrid<Dim>::Level::solve_directly() {
-    Eigen::VectorXd right(static_cast<Eigen::Index>(unknowns.size()));
-    for (Eigen::Index i = 0; i < right.size(); ++i) {
-        const auto [node, d] = unknowns[static_cast<std::size_t>(i)];
+    std::vector<double> right(unknowns.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        const auto [node, d] = unknowns[i];
         right[i] = static_cast<double>(b.along[d][node]);
     }
-    const Eigen::VectorXd found = factors.solve(right);
-    for (Eigen::Index i = 0; i < right.size(); ++i) {
-        const auto [node, d] = unknowns[static_cast<std::size_t>(i)];
-        x.along[d][node] = static_cast<float>(found[i]);
+    factors.solve(right);
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        const auto [node, d] = unknowns[i];
+        x.along[d][node] = static_cast<float>(right[i]);
     }
 }
 

@@ -79,7 +79,9 @@ SurfaceBricks read_surface_bricks(std::istream& in, const std::string& name) {
     check_numbers(bricks, name);
     constexpr std::uint64_t most_bricks = std::uint64_t{1} << 40;
     packed.check_length(std::min(counts[7], most_bricks) * sizeof(PatternBrick::steps));
-    bricks.bricks.resize(counts[7]);
+    // More than memory can hold ends in std::bad_alloc, also where sizes have 32 bits.
+    bricks.bricks.resize(
+        static_cast<std::size_t>(std::min<std::uint64_t>(counts[7], bricks.bricks.max_size())));
     for (PatternBrick& brick : bricks.bricks) {
         std::array<std::int64_t, 3> corner{};
         packed.take(&corner, 1);

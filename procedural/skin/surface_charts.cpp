@@ -51,7 +51,7 @@ bool uniform(const Field& body, const Box& box, double step) {
 }  // namespace
 
 std::size_t SurfaceCharts::Hash::operator()(const Key& key) const {
-    return CounterHash(0, key.level, key.index.x, key.index.y, key.index.z).bits(0);
+    return static_cast<std::size_t>(CounterHash(0, key.level, key.index.x, key.index.y, key.index.z).bits(0));
 }
 
 SurfaceCharts::SurfaceCharts(const Field& body, double finest, double depth) : finest_(finest) {

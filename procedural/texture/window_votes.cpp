@@ -20,7 +20,7 @@ constexpr std::uint32_t places_a_window = 128;  // a power of two beyond the lar
 WindowVotes::WindowVotes(const SiteWindows& windows, const Exemplar& exemplar)
     : windows_(windows), exemplar_(exemplar) {
     const std::size_t area = windows.area(), sites = windows.sites.size() / area;
-    if (sites > (std::size_t{1} << 32U) / places_a_window)
+    if (sites > (std::uint64_t{1} << 32U) / places_a_window)
         throw InputError(std::to_string(sites) + " sites; expected at most 33 million");
     const int radius = windows.radius();
     for (int up = -radius; up <= radius; ++up) {
@@ -32,7 +32,7 @@ WindowVotes::WindowVotes(const SiteWindows& windows, const Exemplar& exemplar)
     for (const std::uint32_t site : windows.sites) ++first_[site + 1];
     for (std::size_t i = 0; i < sites; ++i) first_[i + 1] += first_[i];
     covers_.resize(windows.sites.size());
-    std::vector<std::uint64_t> next(first_.begin(), first_.end() - 1);
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (std::size_t i = 0; i < windows.sites.size(); ++i) {
         covers_[next[windows.sites[i]]++] =
             static_cast<std::uint32_t>(i / area) * places_a_window + static_cast<std::uint32_t>(i % area);
@@ -80,7 +80,7 @@ void WindowVotes::vote(const WindowMatches& matches, std::span<const std::uint8_
     parallel_for(sites, [&](std::size_t i) {
         if (!fixed.empty() && fixed[i] != 0) return;
         float sum = 0, solid = 0, distance = 0;
-        for (std::uint64_t k = first_[i]; k < first_[i + 1]; ++k) {
+        for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
             const std::uint32_t site = covers_[k] / places_a_window, place = covers_[k] % places_a_window;
             const int across = static_cast<int>(place) % windows_.size - windows_.radius(),
                       up = static_cast<int>(place) / windows_.size - windows_.radius();

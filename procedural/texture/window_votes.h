@@ -30,7 +30,7 @@ class WindowVotes {
     const SiteWindows& windows_;
     const Exemplar& exemplar_;
     std::vector<float> falloff_;         ///< by place in the window
-    std::vector<std::uint64_t> first_;   ///< of each site in `covers_`, and the end
+    std::vector<std::size_t> first_;     ///< of each site in `covers_`, and the end
     std::vector<std::uint32_t> covers_;  ///< windows over a site: site * 128 + place in the window
 };
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <limits>
 #include <type_traits>
 
 #include "engine/base/error.h"
@@ -130,17 +131,22 @@ void skip_lines(std::istream& in, std::int64_t count, const std::string& name) {
     }
 }
 
+/// A number of bytes for a message; computers of 32 bits say no larger one than they can address.
+std::size_t shown(std::uint64_t bytes) {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(bytes, std::numeric_limits<std::size_t>::max()));
+}
+
 /// Rejects a file that is too short for its header, before memory is allocated for it.
 void check_length(std::istream& in, const NrrdHeader& header, std::size_t count, const std::string& name) {
-    const std::uint64_t left = bytes_left(in, name), size = count * sample_bytes(header.type);
+    const std::uint64_t left = bytes_left(in, name), size = std::uint64_t{count} * sample_bytes(header.type);
     const bool possible = header.encoding == NrrdEncoding::raw    ? left >= size
                           : header.encoding == NrrdEncoding::gzip ? left * GzipStream::max_packing >= size
                                                                   : left + 1 >= 2 * count;
     if (possible) return;
     if (header.encoding == NrrdEncoding::text) {
-        fail(name, announced(count, "number") + "only " + counted(left, "byte") + " follow");
+        fail(name, announced(count, "number") + "only " + counted(shown(left), "byte") + " follow");
     }
-    fail(name, announced(size, "byte") + "only " + grouped(left) +
+    fail(name, announced(shown(size), "byte") + "only " + grouped(shown(left)) +
                    (header.encoding == NrrdEncoding::gzip ? " packed ones are there" : " are there"));
 }
 

@@ -8,9 +8,9 @@
 
 namespace lamella {
 
-std::size_t hash_value(const PlaceKey& key) {
+std::uint64_t hash_value(const PlaceKey& key) {
     const auto part = static_cast<std::uint64_t>(key.part);
-    return static_cast<std::size_t>(CounterHash(part, key.level, key.x, key.y, key.z).bits(0));
+    return CounterHash(part, key.level, key.x, key.y, key.z).bits(0);
 }
 
 void RecentPlaces::make_room(std::size_t slots) {

@@ -26,7 +26,7 @@ struct PlaceKey {
 };
 
 /// Returns a hash of the key, the same in every process.
-std::size_t hash_value(const PlaceKey& key);
+std::uint64_t hash_value(const PlaceKey& key);
 
 /// A lossy set of recent keys: a table of hashes without collision resolution, where a newer key replaces an
 /// older one in its slot.
@@ -40,7 +40,9 @@ class RecentPlaces {
     bool take(const PlaceKey& key);
 
   private:
-    std::uint64_t& slot(std::uint64_t hash) { return slots_[hash & (slots_.size() - 1)]; }
+    std::uint64_t& slot(std::uint64_t hash) {
+        return slots_[static_cast<std::size_t>(hash) & (slots_.size() - 1)];
+    }
 
     std::vector<std::uint64_t> slots_;  ///< their number is 0 or a power of two; 0 marks a free slot
 };
@@ -117,7 +119,9 @@ class CellCache {
 
   private:
     struct KeyHash {
-        std::size_t operator()(const PlaceKey& key) const { return hash_value(key); }
+        std::size_t operator()(const PlaceKey& key) const {
+            return static_cast<std::size_t>(hash_value(key));
+        }
     };
     struct Entry {
         Pointer value;

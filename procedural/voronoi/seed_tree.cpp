@@ -32,8 +32,8 @@ using Order = std::array<std::uint8_t, 8>;
 /// below 1e-12).
 Order random_order(std::uint64_t bits) {
     Order order = {0, 1, 2, 3, 4, 5, 6, 7};
-    for (std::uint64_t i = 7; i > 0; --i) {
-        std::swap(order[i], order[bits % (i + 1)]);
+    for (std::size_t i = 7; i > 0; --i) {
+        std::swap(order[i], order[static_cast<std::size_t>(bits % (i + 1))]);
         bits /= i + 1;
     }
     return order;

@@ -59,10 +59,27 @@ bool has_word(std::string text, const std::string& word) {
     return false;
 }
 
+/// The lines of the script for fish that hold for a command.
+std::string fish_lines_of(const std::string& script, const std::string& command) {
+    std::istringstream lines(script);
+    std::string found;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("-n '__lamella_in ") == std::string::npos) continue;
+        if (has_word(between(line, "__lamella_in ", "'"), command)) found += line + " \n";
+    }
+    return found;
+}
+
+/// "--output" as ` -l output `.
+std::string in_fish(const std::string& option) {
+    return option.starts_with("--") ? " -l " + option.substr(2) + " " : " -s " + option.substr(1) + " ";
+}
+
 }  // namespace
 
 TEST_CASE("completion and manual pages name every command and every option that the help knows") {
     const std::string bash = run_lamella("completion bash").out, zsh = run_lamella("completion zsh").out;
+    const std::string fish = run_lamella("completion fish").out;
     const std::string overview = run_lamella("man").out;
     const std::string bash_recipe = between(bash, "local recipe=", "\n");
     const std::string zsh_recipe = between(zsh, "local -a recipe=", "\n    )\n");
@@ -72,6 +89,7 @@ TEST_CASE("completion and manual pages name every command and every option that 
         CAPTURE(command);
         CHECK(has_word(between(bash, "_lamella_commands=", "\n"), command));
         CHECK(mentions(zsh, "'" + command + ":"));
+        CHECK(mentions(fish, " -n __lamella_first -a " + command + " "));
         CHECK(mentions(overview, "\\fBlamella\\-" + command + "\\fR(1)"));
         const Outcome page = run_lamella("man " + command);
         CHECK(page.code == 0);
@@ -85,6 +103,7 @@ TEST_CASE("completion and manual pages name every command and every option that 
             CAPTURE(option);
             CHECK(has_word(bash_options, option));
             CHECK(has_word(zsh_options, option));
+            CHECK(fish_lines_of(fish, command).find(in_fish(option)) != std::string::npos);
             CHECK(page.out.find(in_roff(option)) != std::string::npos);
         }
     }
@@ -121,9 +140,9 @@ TEST_CASE("manual pages have no line that roff would take for a request of its o
 }
 
 TEST_CASE("an unknown shell or command is bad input") {
-    const Outcome shell = run_lamella("completion fish");
+    const Outcome shell = run_lamella("completion tcsh");
     CHECK(shell.code == 2);
-    CHECK(mentions(shell.err, "fish not in {bash,zsh}"));
+    CHECK(mentions(shell.err, "tcsh not in {bash,zsh,fish}"));
     CHECK(run_lamella("completion").code == 2);
     const Outcome page = run_lamella("man slcie");
     CHECK(page.code == 2);
