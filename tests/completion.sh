@@ -72,26 +72,26 @@ expect "pla pla-matte" slice --material pla
 cat >"$scratch/press.zsh" <<'ZSH'
 zmodload zsh/zpty
 zpty -b shell "TERM=dumb zsh -f -i"
-settle() {
-    local part got= quiet=0
-    for ((; quiet < ${1:-8};)); do
+# Reads the screen until it shows all of the words, or nothing has come for ten seconds.
+screen_with() {
+    local part got= quiet=0 want missing=1
+    for ((; missing && quiet < 200;)); do
         if zpty -r -t shell part; then got+=$part quiet=0; else sleep 0.05; ((quiet += 1)); fi
+        missing=0
+        for want; do [[ $got == *"$want"* ]] || missing=1; done
     done
     print -r -- "$got"
 }
-zpty -w shell "PS1='> ' LISTMAX=10000; fpath=($ZSH_FOLDER \$fpath); autoload -Uz compinit; compinit -u -D"
-settle 20 >/dev/null
-for line in "$@"; do
-    zpty -w -n shell "$line"$'\t\t'
-    settle
-    zpty -w -n shell $'\x15'
-    settle 2 >/dev/null
-done
+zpty -w shell "PS1='> ' LISTMAX=10000; fpath=($ZSH_FOLDER \$fpath); autoload -Uz compinit; compinit -u -D; print re''ady"
+screen_with ready >/dev/null
+zpty -w -n shell "$1"$'\t\t'
+shift
+screen_with "$@"
 zpty -d shell
 ZSH
 press() {
     local found
-    found=$(ZSH_FOLDER=$zsh_folder zsh -f "$scratch/press.zsh" "$1")
+    found=$(ZSH_FOLDER=$zsh_folder zsh -f "$scratch/press.zsh" "$@")
     shift
     for want; do
         [[ $found == *"$want"* ]] || fail "zsh: does not offer $want; its screen: $found"
