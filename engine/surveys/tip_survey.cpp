@@ -275,7 +275,8 @@ void TipSurveyor::include(Node number, const LayerPieces& pieces, const Layer& l
         found.at = within;
     }
     constexpr double rounding = 1e-9;
-    if (index > found.first_layer && found.height > options_.height + rounding) {
+    const bool is_trimmed_anyway = index == found.first_layer && options_.height >= 0;
+    if (!is_trimmed_anyway && found.height > options_.height + rounding) {
         tip.is_high = tip.stays = true;
         forget_runs(tip);
     } else {

@@ -23,7 +23,7 @@ struct HangingTip {
 
 struct TipSurveyOptions : PassControl {
     double pitch = 0.05;                          ///< mm from one surveyed row to the next
-    double height = 0.2;                          ///< mm: no higher tips than this are trimmed
+    double height = 0.2;                          ///< mm: no higher tips are trimmed; negative: none are
     double contact = 0.1;                         ///< mm across: of what holds; 0: whatever touches, holds
     std::size_t max_kept = std::size_t{1} << 24;  ///< most runs of tips in memory; 16 bytes each
     std::size_t report_kept = 10;

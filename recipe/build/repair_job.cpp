@@ -55,7 +55,7 @@ void find_tips(double height, double size, const BuiltJob& built, RepairReport& 
     constexpr double widest = 0.2;  // of what rows of a fine pitch are spent on, mm
     TipSurveyOptions survey;
     survey.pitch = pitch_for(built.job, std::min(size, widest));
-    survey.height = height;
+    survey.height = height > 0 ? height : -1;
     survey.threads = options.threads;
     survey.on_progress = options.on_progress;
     survey.cancel = options.cancel;
@@ -218,7 +218,7 @@ std::string repairs_text(const RepairReport& report) {
     }
     if (report.thickened) text += mended_text("thickness  ", *report.thickened, "thinner", "made thicker");
     if (report.filled) text += mended_text("gaps       ", *report.filled, "narrower", "filled");
-    if (report.tips) text += tips_text(*report.tips, report.trim);
+    if (report.trim > 0) text += tips_text(*report.tips, report.trim);
     if (!report.holds.empty()) {
         text += fmt::format("hold       {} {} from tips that stay down to the part\n", report.holds.size(),
                             report.holds.size() == 1 ? "strut" : "struts");

@@ -139,6 +139,14 @@ TEST_CASE("higher tips get struts down to the part", "[repair]") {
     CHECK(repaired(hook + "[process]\nscale = [2, 2, 2]\n[repair]\ntrim = 0.3\nhold = 1\n")
               .repairs->holds.empty());
     CHECK(repaired(hall + "[repair]\nhold = 0.8\n").repairs->holds == held.repairs->holds);
+    // So is a tip of a single layer, which trimming would remove.
+    std::string low = hall;
+    low.replace(low.find("z + 0.75"), 8, "z - 1.46");
+    CHECK(repaired(low + "[repair]\ntrim = 0.2\nhold = 0.8\n").repairs->holds.empty());
+    const BuiltJob kept = repaired(low + "[repair]\nhold = 0.8\n");
+    CHECK(kept.repairs->holds.size() == 1);
+    CHECK(kept.repairs->tips->removed->empty());
+    CHECK_THAT(repairs_text(*kept.repairs), !Catch::Contains("trim"));
 }
 
 TEST_CASE("self-supporting skins are trimmed unless the recipe says otherwise", "[repair]") {
