@@ -9,7 +9,7 @@ pictures=out/patterns
 sheet=docs/pictures/pattern_sheet.png
 tile=270  # px
 font=${FONT:-/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf}
-examples=("blobs 24" "bricks 36" "dots 40" "gravel 50" "membrane 36 --skin-invert")
+examples=("blobs 24" "bricks 36" "dots 40" "gravel 100" "membrane 36 --skin-invert")
 bodies=("koala examples/models/koala_mm.obj"
     "ring --shape torus --shape-radius 20 --shape-tube 8"
     "box --shape box --shape-size 44,32,24")

@@ -294,6 +294,9 @@ std::string skin_text(const Json& skin) {
                             100 * skin["picture_open_share"].get<double>(), skin["site_mm"].get<double>(),
                             skin["bytes"].get<double>() / 1e6);
         text += bridges_text(skin);
+        constexpr double much = 0.05;
+        if (skin["picture_open_share"].get<double>() - skin["open_share"].get<double>() > much)
+            text += "; more solid than its picture: a larger image_size or a narrower strut keeps more gaps";
     } else if (skin.contains("islands_left_out")) {
         text +=
             fmt::format(", windows of a picture, {:.1f} % open, {} islands a tile left out",
