@@ -1,5 +1,6 @@
 // The steps of a batch, compiled for every SIMD target. No fused operations and no approximations: every lane
 // computes exactly as the point evaluator does.
+#include <cmath>
 #include <limits>
 
 #include "engine/formula/formula_batch.h"
@@ -85,8 +86,19 @@ HWY_INLINE Lanes Compare(Lanes a, Lanes b) {
     return IfThenElse(Lt(a, b), Neg(one), IfThenElse(Lt(b, a), one, same));
 }
 
+/// As power() with an exponent that is not whole.
+void RootLines(const BatchStep& step, const Grid& grid, double exponent) {
+    const Lanes zero = Constant<Lanes>(0.0), nan = Constant<Lanes>(quiet_nan);
+    Unary(step, grid, [=](Lanes base) HWY_ATTR {
+        const Lanes magnitude = Exponential(Mul(Constant<Lanes>(exponent), Logarithm(Abs(base))));
+        return IfThenElse(Lt(base, zero), nan, magnitude);
+    });
+}
+
 /// Whole exponents are computed lane by lane, because the multiplications depend on the exponent.
 void PowerLines(const BatchStep& step, const Grid& grid) {
+    const bool is_single = step.b.point_mask == 0 && step.b.line_stride == 0;
+    if (is_single && std::floor(*step.b.at) != *step.b.at) return RootLines(step, grid, *step.b.at);
     for (std::size_t l = 0; l < grid.lines; ++l) {
         for (std::size_t p = 0; p < grid.points; ++p) {
             const auto number = [&](const BatchStep::Operand& o) {

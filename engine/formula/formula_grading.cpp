@@ -1,6 +1,9 @@
 // The value of a formula at a point, and its range over a box.
 #include "engine/formula/formula_grading.h"
 
+#include <algorithm>
+
+#include "engine/formula/formula_batch.h"
 #include "engine/formula/formula_inputs.h"
 
 namespace lamella {
@@ -14,17 +17,24 @@ class FormulaGrading : public Grading {
     double at(dvec3 p) const override { return formula_at(formula_, others_, read_, p); }
 
     void numbers(std::span<const dvec3> points, std::span<double> out) const override {
-        if (read_.empty()) return Grading::numbers(points, out);
-        std::vector<std::vector<double>> read(others_.size());
-        for (const std::size_t i : read_) {
-            read[i].resize(points.size());
-            others_[i]->numbers(points, read[i]);
-        }
-        std::vector<double> inputs(3 + others_.size());
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            for (int axis = 0; axis < 3; ++axis) inputs[static_cast<std::size_t>(axis)] = points[k][axis];
-            for (const std::size_t i : read_) inputs[3 + i] = read[i][k];
-            out[k] = formula_.at(inputs);
+        constexpr std::size_t few = 32;  // of which a batch would take longer
+        if (points.size() < few && read_.empty()) return Grading::numbers(points, out);
+        FormulaBatch batch;
+        batch.prepare({formula_.instructions(), formula_.constants()});
+        std::vector<double> numbers((3 + others_.size()) * FormulaBatch::good_grid);
+        std::vector<BatchInput> inputs(3 + others_.size());
+        for (std::size_t i = 0; i < inputs.size(); ++i)
+            inputs[i] = {numbers.data() + i * FormulaBatch::good_grid, false, true};
+        for (std::size_t first = 0; first < points.size(); first += FormulaBatch::good_grid) {
+            const auto part =
+                points.subspan(first, std::min(points.size() - first, std::size_t{FormulaBatch::good_grid}));
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                double* const to = numbers.data() + axis * FormulaBatch::good_grid;
+                for (std::size_t k = 0; k < part.size(); ++k) to[k] = part[k][static_cast<int>(axis)];
+            }
+            for (const std::size_t i : read_)
+                others_[i]->numbers(part, {numbers.data() + (3 + i) * FormulaBatch::good_grid, part.size()});
+            batch.run(inputs, 1, static_cast<int>(part.size()), out.subspan(first, part.size()));
         }
     }
 
