@@ -23,25 +23,20 @@ Rect region_at(const Box& region, double z) {
     return region.lo.z <= z && z <= region.hi.z ? region.rect() : Rect{};
 }
 
-/// The solid's value along the lines of a band.
+/// The solid's value along the lines of a band; `plane` may be null.
 class TpmsLines : public LineFunction {
   public:
     TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z,
-              const SineCosine& height)
+              const WallPlane* plane)
         : solid_(solid),
           band_(band),
           along_(band.axis == Axis::x ? 0 : 1),
           z_(z),
           unit_(std::abs(band.along_pitch) / run_unit) {
         const double period = solid.period(), center = solid.center()[1 - along_];
-        const bool tabulates = solid.wall() != nullptr && solid.has_constant_period() &&
-                               TpmsSolid::half_angle(solid.thickness_over(solid.region()).hi, period) <=
-                                   WallLine::greatest_half(*solid.wall());
         for (const int l : lines) {
             places_.push_back(band.line(l));
-            if (!tabulates) continue;
-            const SineCosine across = TpmsSolid::angle(places_.back() - center, period);
-            walls_.emplace_back(*solid.wall(), band.axis, across, height);
+            if (plane != nullptr) walls_.emplace_back(*plane, band.axis, (places_.back() - center) / period);
         }
     }
 
@@ -79,7 +74,10 @@ TpmsSlice::TpmsSlice(const Field& field, const TpmsSolid& solid, double z)
       solid_(solid),
       z_(z),
       region_(region_at(solid.region(), z)),
-      height_(TpmsSolid::angle(z - solid.center().z, solid.period())) {}
+      height_(TpmsSolid::angle(z - solid.center().z, solid.period())) {
+    if (solid.wall() != nullptr && solid.has_constant_period() && !region_.empty())
+        plane_.emplace(*solid.wall(), height_);
+}
 
 void TpmsSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const {
     out.clear();
@@ -103,7 +101,12 @@ void TpmsSlice::closed_spans(const RowBand& band, RunRows& out) const {
         intervals.clear();
         if (lines.contains(place)) {
             const double distance = place - solid_.center()[across_axis];
-            solid_.find_runs(band.axis, TpmsSolid::angle(distance, period), height_, parts);
+            if (plane_) {
+                WallLine(*plane_, band.axis, distance / period).find_runs(solid_.central_half(), parts);
+            } else {
+                const SineCosine turn = TpmsSolid::angle(distance, period);
+                solid_.find_network_runs(band.axis, turn, height_, parts);
+            }
             append_periodic_runs(parts, solid_.center()[along_axis], period, clip, intervals);
         }
         push_intervals(band, intervals, out);
@@ -123,7 +126,7 @@ void TpmsSlice::walked_spans(const RowBand& band, RunRows& out) const {
         for (int l = 0; l < count; ++l) out.end_line();
     };
     end_lines(walked.empty() ? band.lines() : walked.front());
-    walk_lines(TpmsLines(solid_, band, walked, z_, height_), walked.size(), lo, hi, out);
+    walk_lines(TpmsLines(solid_, band, walked, z_, plane_ ? &*plane_ : nullptr), walked.size(), lo, hi, out);
     if (!walked.empty()) end_lines(band.lines() - 1 - walked.back());
 }
 

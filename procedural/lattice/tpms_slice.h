@@ -4,6 +4,7 @@
 
 #include "engine/field/tile_walk.h"
 #include "procedural/lattice/tpms_solid.h"
+#include "procedural/lattice/wall_plane.h"
 
 namespace lamella {
 
@@ -25,6 +26,7 @@ class TpmsSlice : public SampledSlice {
     double z_;
     Rect region_;  ///< empty at heights outside the region
     SineCosine height_;
+    std::optional<WallPlane> plane_;  ///< of a sheet with a constant period
 };
 
 }  // namespace lamella

@@ -81,11 +81,10 @@ double TpmsSolid::value_at(const TpmsPoint& point, double period, double thickne
     return (tpms_sample(kind(), point).g - network_->level(half)) * (scale / g_.steepest);
 }
 
-void TpmsSolid::find_runs(Axis axis, const SineCosine& across, const SineCosine& z,
-                          std::vector<Interval>& out) const {
-    const double half = half_angle(thickness_, period_);
-    if (!network_) return wall_.find_runs(axis, across, z, half, out);
-    const WaveRuns runs = wave_runs(tpms_wave(kind(), axis, across, z), {-infinity, network_->level(half)});
+void TpmsSolid::find_network_runs(Axis axis, const SineCosine& across, const SineCosine& z,
+                                  std::vector<Interval>& out) const {
+    const double level = network_->level(central_half());
+    const WaveRuns runs = wave_runs(tpms_wave(kind(), axis, across, z), {-infinity, level});
     out.assign(runs.parts().begin(), runs.parts().end());
 }
 

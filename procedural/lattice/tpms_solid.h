@@ -47,10 +47,12 @@ class TpmsSolid {
     /// Returns an upper bound of the change of the value per mm along a line parallel to `axis` (0 to 2). The
     /// contribution of gradings is estimated from their differences on a lattice over the region.
     double steepest(int axis) const { return 1 + graded_change_[axis]; }
-    /// Finds the turns in which one period of a line is solid, as TpmsWall::find_runs() and wave_runs() do.
-    /// Period and thickness are those at the region's centre.
-    void find_runs(Axis axis, const SineCosine& across, const SineCosine& z,
-                   std::vector<Interval>& out) const;
+    /// Finds the turns in which one period of a line of a network is solid, as wave_runs() does. Period and
+    /// thickness are those at the region's centre.
+    void find_network_runs(Axis axis, const SineCosine& across, const SineCosine& z,
+                           std::vector<Interval>& out) const;
+    /// Half of the thickness at the region's centre, in radians.
+    double central_half() const { return half_angle(thickness_, period_); }
 
     double value(dvec3 p) const;
     void values(std::span<const dvec3> points, std::span<double> out) const;

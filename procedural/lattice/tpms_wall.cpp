@@ -6,8 +6,6 @@
 namespace lamella {
 namespace {
 
-constexpr int halvings = 3;             // of the parts of a period
-constexpr double end_tolerance = 1e-8;  // turns
 constexpr int max_newton_steps = 12;
 constexpr double max_newton_step = 0.7;    // radians
 constexpr double exact_within = 1.25;      // half thicknesses from the surface
@@ -62,19 +60,7 @@ std::array<dvec3, 14> directions() {
 
 }  // namespace
 
-/// A line through the wall; `turn` runs along it.
-struct TpmsWall::Line {
-    Axis axis;
-    SineCosine across, z;
-    double half;
-
-    TpmsPoint point(const SineCosine& turn) const { return tpms_point_on(axis, turn, across, z); }
-};
-
-TpmsWall::TpmsWall(TpmsKind kind) : kind_(kind), g_(tpms_constants(kind)), sole_(sole_distance(kind)) {
-    for (std::size_t i = 0; i < first_parts; ++i)
-        turns_[i] = sine_cosine(static_cast<double>(i) * (2 * pi / first_parts));
-}
+TpmsWall::TpmsWall(TpmsKind kind) : kind_(kind), g_(tpms_constants(kind)), sole_(sole_distance(kind)) {}
 
 double TpmsWall::value(const TpmsPoint& point, double half) const {
     const TpmsSample sample = tpms_sample(kind_, point);
@@ -145,14 +131,21 @@ double TpmsWall::search(const TpmsPoint& point, dvec3& offset, double half, bool
     return infinity;
 }
 
-std::optional<TpmsWall::Nearest> TpmsWall::signed_distance(const TpmsPoint& point) const {
+std::optional<TpmsWall::Nearest> TpmsWall::signed_distance(const TpmsPoint& point,
+                                                           std::optional<dvec3> start) const {
     const TpmsSample sample = tpms_sample(kind_, point);
     if (shortest(std::abs(sample.g), glm::length(sample.gradient), g_.sharpest) > sole_) return std::nullopt;
-    dvec3 offset = gradient_step(sample);
-    const double distance = search(point, offset, 0, true);
-    if (!(distance <= sole_)) return std::nullopt;
-    const dvec3 normal = glm::normalize(tpms_sample(kind_, tpms_point_beside(point, offset)).gradient);
-    return Nearest{sample.g < 0 ? -distance : distance, normal};
+    dvec3 foot = start.value_or(gradient_step(sample));
+    const double length = search(point, foot, 0, true);
+    if (!(length <= sole_)) return std::nullopt;
+    const TpmsPoint at = tpms_point_beside(point, foot);
+    const dvec3 gradient = tpms_sample(kind_, at).gradient;
+    const double slope = glm::length(gradient), distance = sample.g < 0 ? -length : length;
+    // The surface's curvatures, carried along its normal: 1 / (radius + distance).
+    const dvec3 normal = gradient / slope;
+    const glm::dmat3 tangential = glm::dmat3(1) - glm::outerProduct(normal, normal);
+    const glm::dmat3 curvature = tangential * tpms_hessian(kind_, at) * tangential / slope;
+    return Nearest{distance, normal, curvature * glm::inverse(glm::dmat3(1) + distance * curvature), foot};
 }
 
 Interval TpmsWall::range(const Box& angles, Interval half) const {
@@ -169,69 +162,6 @@ Interval TpmsWall::range(const Box& angles, Interval half) const {
     const double lowest = std::min(shortest(least, slope, g_.sharpest), half.lo * exact_within);
     return {std::max(lowest, least / g_.steepest) - half.hi,
             std::min(longest(most, gentle, g_.sharpest), g_.farthest) - half.lo};
-}
-
-double TpmsWall::bound_on(const Line& line, const SineCosine& turn) const {
-    return bound(line.point(turn), line.half);
-}
-
-void TpmsWall::find_runs(Axis axis, const SineCosine& across, const SineCosine& z, double half,
-                         std::vector<Interval>& out) const {
-    out.clear();
-    const Line line{axis, across, z, half};
-    std::array<double, first_parts + 1> values;
-    for (std::size_t i = 0; i < first_parts; ++i) values[i] = bound_on(line, turns_[i]);
-    values[first_parts] = values[0];
-    std::vector<double> ends;
-    for (std::size_t i = 0; i < first_parts; ++i) {
-        const double begin = static_cast<double>(i) / first_parts;
-        find_crossings(line, {begin, begin + 1.0 / first_parts}, {values[i], values[i + 1]}, halvings, ends);
-    }
-    const bool inside = values[0] < 0;
-    if (ends.empty()) {
-        if (inside) out.push_back({-infinity, infinity});
-        return;
-    }
-    // The interval that holds turn 0 began in the period before.
-    if (inside) out.push_back({ends.back() - 1, ends.front()});
-    for (std::size_t i = inside ? 1 : 0; i + 1 < ends.size(); i += 2) out.push_back({ends[i], ends[i + 1]});
-}
-
-void TpmsWall::find_crossings(const Line& line, Interval turns, Interval values, int depth,
-                              std::vector<double>& crossings) const {
-    const bool same = (values.lo < 0) == (values.hi < 0);
-    if (same && std::abs(values.lo) + std::abs(values.hi) >= turns.width() * (2 * pi)) return;
-    if (depth == 0) {
-        if (!same) crossings.push_back(crossing(line, turns, values));
-        return;
-    }
-    const double middle = (turns.lo + turns.hi) / 2;
-    const double value = bound_on(line, sine_cosine(middle * (2 * pi)));
-    find_crossings(line, {turns.lo, middle}, {values.lo, value}, depth - 1, crossings);
-    find_crossings(line, {middle, turns.hi}, {value, values.hi}, depth - 1, crossings);
-}
-
-/// The Illinois variant of the method of false position.
-double TpmsWall::crossing(const Line& line, Interval turns, Interval values) const {
-    int kept = 0;  // which end stayed at the last step: -1 the lower, 1 the upper
-    while (turns.width() > end_tolerance) {
-        double at = turns.lo + turns.width() * (values.lo / (values.lo - values.hi));
-        if (!(turns.lo < at && at < turns.hi)) at = (turns.lo + turns.hi) / 2;
-        const double value = bound_on(line, sine_cosine(at * (2 * pi)));
-        if (std::abs(value) < end_tolerance) return at;
-        if ((value < 0) == (values.lo < 0)) {
-            turns.lo = at;
-            values.lo = value;
-            if (kept == 1) values.hi /= 2;
-            kept = 1;
-        } else {
-            turns.hi = at;
-            values.hi = value;
-            if (kept == -1) values.lo /= 2;
-            kept = -1;
-        }
-    }
-    return (turns.lo + turns.hi) / 2;
 }
 
 }  // namespace lamella

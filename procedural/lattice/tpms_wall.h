@@ -2,9 +2,7 @@
 // thicknesses are in radians of the angles.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <vector>
 
 #include "procedural/lattice/tpms_surface.h"
 
@@ -25,45 +23,34 @@ class TpmsWall {
     double value(const TpmsPoint& point, double half) const;
     /// Returns a bound of the same sign that is faster to compute, but jumps.
     double bound(const TpmsPoint& point, double half) const;
-    /// The distance from the surface, with the sign of g, and the direction in which it grows.
+    /// The distance from the surface, with the sign of g, and the nearest point.
     struct Nearest {
         double distance;
-        dvec3 normal;
+        dvec3 normal;        ///< the direction in which the distance grows: its gradient
+        glm::dmat3 hessian;  ///< the second derivatives of the distance
+        dvec3 foot;          ///< the surface's nearest point, from the point
     };
     /// Returns these where the nearest point of the surface is known to be the only one; elsewhere the
-    /// distance is at least about radius_of_uniqueness().
-    std::optional<Nearest> signed_distance(const TpmsPoint& point) const;
+    /// distance is at least about radius_of_uniqueness(). The search may begin near the nearest point of a
+    /// point beside, `start` from this one.
+    std::optional<Nearest> signed_distance(const TpmsPoint& point, std::optional<dvec3> start) const;
     /// The distance below which a point of space has one nearest point, which the search finds; measured.
     double radius_of_uniqueness() const { return sole_; }
     /// Returns bounds of the values over a box of angles, for all half thicknesses of an interval.
     Interval range(const Box& angles, Interval half) const;
-    /// Finds the turns, ascending and within [-1, 1], in which one period of a line in the direction `axis`
-    /// of a plane lies in the wall; one infinite interval if all of it does. Wall and openings thinner than
-    /// 1/128 of the period may be missed.
-    void find_runs(Axis axis, const SineCosine& across, const SineCosine& z, double half,
-                   std::vector<Interval>& out) const;
 
   private:
-    struct Line;
-
     /// The value where the bounds leave it open. `exact` asks for that of value(), else for one of bound().
     double nearest(const TpmsPoint& point, const TpmsSample& sample, double half, bool exact) const;
     /// Moves `offset` from the point to a nearest point of the surface, by Newton's method from where it
     /// starts. Returns its length less `half`, or a number of the same sign nearer to zero unless `exact`;
     /// infinity if the method fails.
     double search(const TpmsPoint& point, dvec3& offset, double half, bool exact) const;
-    double bound_on(const Line& line, const SineCosine& turn) const;
-    void find_crossings(const Line& line, Interval turns, Interval values, int depth,
-                        std::vector<double>& crossings) const;
-    double crossing(const Line& line, Interval turns, Interval values) const;
-
-    static constexpr int first_parts = 16;  // of a period; halved further
 
     TpmsKind kind_;
     TpmsConstants g_;
     double sole_;  ///< radians; the search finds the nearest point of the surface for all points nearer than
                    ///< this
-    std::array<SineCosine, first_parts> turns_;
 };
 
 }  // namespace lamella

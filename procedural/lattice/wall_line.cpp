@@ -1,32 +1,116 @@
-// Distances and their slopes at equal steps, from the nearest points of the surface.
+// A line cut out of a plane's patches; runs by halving the pieces of a period.
 #include "procedural/lattice/wall_line.h"
 
-namespace lamella {
+#include <algorithm>
 
-WallLine::WallLine(const TpmsWall& wall, Axis axis, const SineCosine& across, const SineCosine& z)
-    : wall_(&wall), axis_(axis), across_(across), z_(z) {
+namespace lamella {
+namespace {
+
+constexpr int halvings = 2;             // of the pieces of a period
+constexpr double end_tolerance = 1e-8;  // turns
+
+/// The cubic with these values and derivatives at 0 and 1.
+double hermite(double a, double da, double b, double db, double t) {
+    const double u = 1 - t;
+    return u * u * ((1 + 2 * t) * a + t * da) + t * t * ((1 + 2 * u) * b - u * db);
+}
+
+}  // namespace
+
+WallLine::WallLine(const WallPlane& plane, Axis axis, double across) : plane_(&plane), axis_(axis) {
+    const double turn = across - std::floor(across), place = turn * parts;
+    across_ = sine_cosine(turn * (2 * pi));
+    const int j = std::min(static_cast<int>(place), parts - 1);
+    const double t = place - j;
     for (int i = 0; i < parts; ++i) {
-        const TpmsPoint point = tpms_point_on(axis, sine_cosine(i * step), across, z);
-        const auto nearest = wall.signed_distance(point);
-        if (!nearest) continue;
-        const double slope = axis == Axis::x ? nearest->normal.x : nearest->normal.y;
-        nodes_[static_cast<std::size_t>(i)] = {nearest->distance, slope * step, true};
+        const auto node = [&](int row) -> const WallPlane::Node& {
+            return axis == Axis::x ? plane.node(i, row) : plane.node(row, i);
+        };
+        const WallPlane::Node &a = node(j), &b = node(j + 1);
+        if (!a.known || !b.known) continue;
+        nodes_[static_cast<std::size_t>(i)] =
+            axis == Axis::x ? Node{hermite(a.distance, a.along_y, b.distance, b.along_y, t),
+                                   hermite(a.along_x, a.mixed, b.along_x, b.mixed, t), true}
+                            : Node{hermite(a.distance, a.along_x, b.distance, b.along_x, t),
+                                   hermite(a.along_y, a.mixed, b.along_y, b.mixed, t), true};
     }
     nodes_.back() = nodes_.front();
 }
 
+/// `turns` is within [0, 1].
+double WallLine::searched(double turns, double half) const {
+    const SineCosine turn = sine_cosine(turns * (2 * pi));
+    return plane_->wall().bound(tpms_point_on(axis_, turn, across_, plane_->z()), half);
+}
+
 double WallLine::bound(double turns, double half) const {
-    const double whole = std::floor(turns), place = (turns - whole) * parts;
+    const double turn = turns - std::floor(turns), place = turn * parts;
     const auto i = std::min(static_cast<std::size_t>(place), std::size_t{parts - 1});
     const Node &a = nodes_[i], &b = nodes_[i + 1];
-    if (!a.known || !b.known) {
-        const SineCosine turn = sine_cosine((turns - whole) * (2 * pi));
-        return wall_->bound(tpms_point_on(axis_, turn, across_, z_), half);
+    if (!a.known || !b.known) return searched(turn, half);
+    return std::abs(hermite(a.distance, a.slope, b.distance, b.slope, place - static_cast<double>(i))) - half;
+}
+
+double WallLine::bound_at(std::size_t node, double half) const {
+    const Node& at = nodes_[node];
+    return at.known ? std::abs(at.distance) - half : searched(static_cast<double>(node) / parts, half);
+}
+
+void WallLine::find_runs(double half, std::vector<Interval>& out) const {
+    out.clear();
+    const double first = bound_at(0, half);
+    std::vector<double> ends;
+    double last = first;
+    for (std::size_t i = 0; i < parts; ++i) {
+        const double next = i + 1 < parts ? bound_at(i + 1, half) : first;
+        const auto begin = static_cast<double>(i), end = begin + 1;
+        find_crossings({begin / parts, end / parts}, {last, next}, half, halvings, ends);
+        last = next;
     }
-    const double t = place - static_cast<double>(i), u = 1 - t;
-    const double distance =
-        u * u * ((1 + 2 * t) * a.distance + t * a.slope) + t * t * ((1 + 2 * u) * b.distance - u * b.slope);
-    return std::abs(distance) - half;
+    const bool inside = first < 0;
+    if (ends.empty()) {
+        if (inside) out.push_back({-infinity, infinity});
+        return;
+    }
+    // The interval that holds turn 0 began in the period before.
+    if (inside) out.push_back({ends.back() - 1, ends.front()});
+    for (std::size_t i = inside ? 1 : 0; i + 1 < ends.size(); i += 2) out.push_back({ends[i], ends[i + 1]});
+}
+
+void WallLine::find_crossings(Interval turns, Interval values, double half, int depth,
+                              std::vector<double>& crossings) const {
+    const bool same = (values.lo < 0) == (values.hi < 0);
+    if (same && std::abs(values.lo) + std::abs(values.hi) >= turns.width() * (2 * pi)) return;
+    if (depth == 0) {
+        if (!same) crossings.push_back(crossing(turns, values, half));
+        return;
+    }
+    const double middle = (turns.lo + turns.hi) / 2, value = bound(middle, half);
+    find_crossings({turns.lo, middle}, {values.lo, value}, half, depth - 1, crossings);
+    find_crossings({middle, turns.hi}, {value, values.hi}, half, depth - 1, crossings);
+}
+
+/// The Illinois variant of the method of false position.
+double WallLine::crossing(Interval turns, Interval values, double half) const {
+    int kept = 0;  // which end stayed at the last step: -1 the lower, 1 the upper
+    while (turns.width() > end_tolerance) {
+        double at = turns.lo + turns.width() * (values.lo / (values.lo - values.hi));
+        if (!(turns.lo < at && at < turns.hi)) at = (turns.lo + turns.hi) / 2;
+        const double value = bound(at, half);
+        if (std::abs(value) < end_tolerance) return at;
+        if ((value < 0) == (values.lo < 0)) {
+            turns.lo = at;
+            values.lo = value;
+            if (kept == 1) values.hi /= 2;
+            kept = 1;
+        } else {
+            turns.hi = at;
+            values.hi = value;
+            if (kept == -1) values.lo /= 2;
+            kept = -1;
+        }
+    }
+    return (turns.lo + turns.hi) / 2;
 }
 
 }  // namespace lamella

@@ -2,37 +2,43 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
-#include "procedural/lattice/tpms_wall.h"
+#include "procedural/lattice/wall_plane.h"
 
 namespace lamella {
 
-/// One line of a wall. Many bounds along it, also for different thicknesses, cost little: between tabulated
-/// points the signed distance is a cubic Hermite piece, with an error below 1e-4 radians.
+/// One line of a wall. Bounds along it cost little, for any thickness: between tabulated points the signed
+/// distance is a cubic Hermite piece, with an error below 1e-4 radians. Where the nearest point of the
+/// surface may not be the only one, they are searched for, which is slow.
 class WallLine {
   public:
-    /// Half thicknesses up to which a line can be tabulated: the surface's nearest points must be unique.
-    static double greatest_half(const TpmsWall& wall) { return wall.radius_of_uniqueness() - step; }
+    /// The line of the plane in the direction `axis`, at an angle in turns across it. The plane has to
+    /// outlive the object.
+    WallLine(const WallPlane& plane, Axis axis, double across);
 
-    /// The line in the direction `axis` of a plane, with these angles across it and of the plane's height.
-    WallLine(const TpmsWall& wall, Axis axis, const SineCosine& across, const SineCosine& z);
-
-    /// Returns what TpmsWall::bound() does at an angle in turns along the line. `half` is at most
-    /// greatest_half().
+    /// Returns what TpmsWall::bound() does at an angle in turns along the line.
     double bound(double turns, double half) const;
+    /// Finds the turns, ascending and within [-1, 1], in which one period lies in the wall; one infinite
+    /// interval if all of it does. Wall and openings thinner than 1/192 of the period may be missed.
+    void find_runs(double half, std::vector<Interval>& out) const;
 
   private:
-    static constexpr int parts = 40;
-    static constexpr double step = 2 * pi / parts;  // radians
-
     struct Node {
         double distance = 0, slope = 0;
         bool known = false;
     };
+    static constexpr int parts = WallPlane::parts;
 
-    const TpmsWall* wall_;
+    double searched(double turns, double half) const;
+    double bound_at(std::size_t node, double half) const;
+    void find_crossings(Interval turns, Interval values, double half, int depth,
+                        std::vector<double>& crossings) const;
+    double crossing(Interval turns, Interval values, double half) const;
+
+    const WallPlane* plane_;
     Axis axis_;
-    SineCosine across_, z_;
+    SineCosine across_;
     std::array<Node, parts + 1> nodes_;
 };
 
