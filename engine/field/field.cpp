@@ -12,6 +12,8 @@ Interval Field::range(const Box& box) const {
     return range_about(box, value(box.center()), metric());
 }
 
+double Field::deviation(const Box& /*box*/) const { return metric() == Metric::sign ? infinity : 0; }
+
 bool Field::clear_of_surface(dvec3 p, double distance) const {
     return metric() != Metric::sign && std::abs(value_within(p, distance)) >= distance;
 }

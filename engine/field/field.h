@@ -72,6 +72,10 @@ class Field : public std::enable_shared_from_this<Field> {
     /// the centre and the metric.
     virtual Interval range(const Box& box) const;
     virtual Metric metric() const { return Metric::bound; }
+    /// Returns a bound of how far the values in a box lie from those of some function that changes by at most
+    /// 1 per mm. Infinity by default where only the sign is meaningful, else 0. Fields override this when
+    /// their values are a distance less a number that hardly varies over a small box.
+    virtual double deviation(const Box& box) const;
     /// Compute the results of `value` at many points, and of `range` over many boxes.
     virtual void values(std::span<const dvec3> points, std::span<double> out) const;
     virtual void ranges(std::span<const Box> boxes, std::span<Interval> out) const;

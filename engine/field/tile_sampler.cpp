@@ -72,8 +72,11 @@ void TileSampler::sample_ends(const BandTile& tile) {
 }
 
 void TileSampler::sample(std::span<const BandTile> tiles) {
-    // Signs prove nothing between samples, so all quarter pitches are sampled at once.
-    const int step = metric_ == Metric::sign ? quarter : run_unit;
+    // Where values prove nothing between samples, all quarter pitches are sampled at once.
+    const bool by_signs = metric_ == Metric::sign && std::ranges::any_of(tiles, [](const BandTile& tile) {
+                              return !tile.full && tile.deviation == infinity;
+                          });
+    const int step = by_signs ? quarter : run_unit;
     ask_samples(tiles, step);
     read_samples(tiles, step);
     for (int gap = step; gap > quarter; gap /= 2) split();
@@ -114,7 +117,8 @@ void TileSampler::read_samples(std::span<const BandTile> tiles, int step) {
         const std::size_t count = static_cast<std::size_t>((to - from) / step) + 1;
         for (int l = tile.first; l < end_line(tile); ++l) {
             const std::size_t stretch = stretches_.size();
-            stretches_.push_back({l, from, to, tile.full || v[0] < 0});
+            stretches_.push_back(
+                {l, from, to, tile.full || v[0] < 0, metric_ == Metric::sign ? tile.deviation : 0});
             if (tile.full) continue;
             const auto pair = [&](std::size_t i) {
                 const double u = from + static_cast<int>(i) * step;
@@ -155,7 +159,8 @@ void TileSampler::consider(const Pair& pair, std::vector<Pair>& out) const {
     const double width = pair.u1 - pair.u0;
     if (!pair.crosses()) {
         const double gap = width * std::abs(band_.along_pitch) / run_unit;
-        const bool proven = metric_ != Metric::sign && std::abs(pair.v0) + std::abs(pair.v1) >= gap;
+        const double deviation = stretches_[pair.stretch].deviation;
+        const bool proven = std::abs(pair.v0) + std::abs(pair.v1) >= gap + 2 * deviation;
         if (proven || width <= quarter) return;
     }
     out.push_back(pair);

@@ -48,7 +48,8 @@ class SampledSolid {
 /// Pixels [lo, lo + width) of lines [first, first + height) of a band, as far as the band has them.
 struct BandTile {
     int lo, width, first, height;
-    bool full = false;  ///< known to be solid everywhere
+    bool full = false;            ///< known to be solid everywhere
+    double deviation = infinity;  ///< see Field::deviation; that of a solid with the metric sign
 };
 
 /// Samples the tiles of a band, narrows down the crossings on their lines, and collects the runs of each
@@ -76,6 +77,7 @@ class TileSampler {
         int line;
         std::int32_t begin, end;
         bool begins_inside;
+        double deviation = 0;
     };
     /// Two neighbouring samples of a stretch, at run coordinates u0 < u1.
     struct Pair {

@@ -112,6 +112,7 @@ class EvenWalk {
             BandTile tile = level_[i];
             tile.full = ranges_[i].hi < 0;
             if (!tile.full && ranges_[i].lo > 0) continue;
+            if (!tile.full && is_leaf(tile)) tile.deviation = solid_.deviation(rects_[i]);
             if (tile.full || is_leaf(tile)) {
                 found_.push_back(tile);
             } else {
@@ -163,6 +164,7 @@ class FieldInPlane : public BatchSampledSolid {
         for (const Rect& tile : tiles) boxes_.push_back({{tile.lo, z_}, {tile.hi, z_}});
         field_.ranges(boxes_, out);
     }
+    double deviation(const Rect& tile) override { return field_.deviation({{tile.lo, z_}, {tile.hi, z_}}); }
     void values(const WalkPoints& points, std::span<double> out) override {
         points_.clear();
         points.each([&](dvec2 p) { points_.emplace_back(p, z_); });
@@ -194,12 +196,8 @@ void sampled_spans(const SliceField& slice, Metric metric, const RowBand& band, 
 }
 
 void SampledSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const {
-    if (field_.takes_many()) {
-        FieldInPlane walked(field_, z_);
-        sampled_spans(walked, field_.metric(), band, out);
-    } else {
-        sampled_spans(*this, field_.metric(), band, out);
-    }
+    FieldInPlane walked(field_, z_);
+    sampled_spans(walked, field_.metric(), band, out);
 }
 
 Interval SampledSlice::range(const Rect& r) const { return field_.range({{r.lo, z_}, {r.hi, z_}}); }

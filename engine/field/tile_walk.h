@@ -38,15 +38,17 @@ class BatchSampledSolid : public SampledSolid {
   public:
     /// Computes intervals that enclose every value over each of the tiles.
     virtual void ranges(std::span<const Rect> tiles, std::span<Interval> out) = 0;
+    /// Returns Field::deviation over a tile.
+    virtual double deviation(const Rect& tile) = 0;
 };
 
 /// Computes the solid runs of a band from ranges and values alone. Tiles whose range proves them empty or
 /// full are not sampled. Where the slope proves that values rise or fall all along a tile's lines, each line
 /// has one crossing at most and only its ends are sampled. Elsewhere neighbouring samples are compared, and
 /// halved down to a quarter pitch unless their values prove that no surface passes between them (metric exact
-/// or bound). Crossings are narrowed to 1/16 of a run unit. NaN counts as outside. Samples lie at quarter
-/// pitches counted from the band's origin, and a proof only replaces samples that would agree with it, so a
-/// line's runs do not depend on the division into tiles and bands.
+/// or bound, or a small deviation from such). Crossings are narrowed to 1/16 of a run unit. NaN counts as
+/// outside. Samples lie at quarter pitches counted from the band's origin, and a proof only replaces samples
+/// that would agree with it, so a line's runs do not depend on the division into tiles and bands.
 void sampled_spans(TileSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out);
 void sampled_spans(BatchSampledSolid& solid, Metric metric, const RowBand& band, RunRows& out);
 

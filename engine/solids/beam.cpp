@@ -1,30 +1,10 @@
 // Closed forms of the round cone: its distance, and its intersection with a line.
 #include "engine/solids/beam.h"
 
+#include "engine/solids/round_cone.h"
+
 namespace lamella {
 namespace {
-
-/// A beam in the frame of its axis: length, direction, and the half-angle of its cone. When one ball contains
-/// the other, the beam is that ball and the length is 0.
-struct RoundCone {
-    dvec3 a, axis;
-    double ra, rb, length, sine, cosine;
-
-    explicit RoundCone(const Beam& beam)
-        : a(beam.a), axis(0), ra(beam.ra), rb(beam.rb), length(0), sine(0), cosine(1) {
-        const dvec3 d = beam.b - beam.a;
-        const double l = std::sqrt(glm::dot(d, d));
-        if (l <= std::abs(ra - rb)) {
-            if (rb > ra) a = beam.b;
-            ra = rb = std::max(ra, rb);
-            return;
-        }
-        length = l;
-        axis = d / l;
-        sine = (ra - rb) / l;
-        cosine = std::sqrt(1 - sine * sine);
-    }
-};
 
 Interval cut_ball(dvec3 relative, dvec3 direction, double radius) {
     const double b = glm::dot(relative, direction);
@@ -77,21 +57,7 @@ Interval cut_frustum(const RoundCone& cone, dvec3 p, dvec3 direction) {
 
 }  // namespace
 
-double signed_distance(const Beam& beam, dvec3 p) {
-    const RoundCone cone(beam);
-    const dvec3 d = p - cone.a;
-    if (cone.length == 0) return std::sqrt(glm::dot(d, d)) - cone.ra;
-    const double x = glm::dot(d, cone.axis);
-    const dvec3 off = d - cone.axis * x;
-    const double radial = std::sqrt(glm::dot(off, off));
-    const double foot = x * cone.cosine - radial * cone.sine;
-    if (foot < 0) return std::sqrt(glm::dot(d, d)) - cone.ra;
-    if (foot > cone.length * cone.cosine) {
-        const dvec3 e = p - beam.b;
-        return std::sqrt(glm::dot(e, e)) - cone.rb;
-    }
-    return radial * cone.cosine + x * cone.sine - cone.ra;
-}
+double signed_distance(const Beam& beam, dvec3 p) { return signed_distance(RoundCone(beam), p); }
 
 std::optional<Interval> cut(const Beam& beam, dvec3 p, dvec3 direction) {
     const RoundCone cone(beam);

@@ -126,10 +126,12 @@ class SmoothSolid : public Field {
           radius_(radius),
           seam_(std::make_shared<Seam>(*a_, !is_union, *tool_, radius)) {}
 
-    double value(dvec3 p) const override {
-        const double a = a_->value(p), tool = tool_->value(p);
-        if constexpr (is_union) return smooth_min(a, tool, radius_);
-        return std::isnan(a) ? a : -smooth_min(-a, tool, radius_);
+    double value(dvec3 p) const override { return blended(a_->value(p), tool_->value(p)); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        std::vector<double> tool(points.size());
+        a_->values(points, out);
+        tool_->values(points, tool);
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = blended(out[i], tool[i]);
     }
     Interval range(const Box& box) const override {
         const Interval a = a_->range(box), tool = tool_->range(box);
@@ -147,6 +149,11 @@ class SmoothSolid : public Field {
     }
 
   private:
+    double blended(double a, double tool) const {
+        if constexpr (is_union) return smooth_min(a, tool, radius_);
+        return std::isnan(a) ? a : -smooth_min(-a, tool, radius_);
+    }
+
     FieldPtr a_, tool_;
     double radius_;
     FieldPtr seam_;

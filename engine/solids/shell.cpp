@@ -39,8 +39,15 @@ class FilledBody : public LazySolid {
           filling_(std::move(filling)),
           thickness_(thickness) {}
 
-    double value(dvec3 p) const override {
-        const double f = filling_->value(p);
+    double value(dvec3 p) const override { return value_of(p, filling_->value(p)); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        filling_->values(points, out);
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = value_of(points[i], out[i]);
+    }
+
+  private:
+    /// `f` is the filling's value.
+    double value_of(dvec3 p, double f) const {
         // Inside, at depth d: max(-d, min(f, d - thickness)), which is f once d reaches both -f and f +
         // thickness.
         const double enough = std::max(-f, thickness_ > 0 ? f + thickness_ : 0.0);
@@ -53,7 +60,6 @@ class FilledBody : public LazySolid {
         return std::max(b, thickness_ > 0 ? std::min(f, -b - thickness_) : f);
     }
 
-  private:
     FieldPtr body_, filling_;
     double thickness_;
 };
@@ -68,8 +74,15 @@ class FilledGradedSkin : public LazySolid {
           shell_(std::move(shell)),
           thickest_(thickest) {}
 
-    double value(dvec3 p) const override {
-        const double f = filling_->value(p);
+    double value(dvec3 p) const override { return value_of(p, filling_->value(p)); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        filling_->values(points, out);
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = value_of(points[i], out[i]);
+    }
+
+  private:
+    /// `f` is the filling's value.
+    double value_of(dvec3 p, double f) const {
         // At depth d the shell's value is at least d - thickest.
         const double enough = std::max(-f, f + thickest_);
         const double b = body_->value_within(p, enough > 0 && std::isfinite(enough) ? enough : infinity);
@@ -78,7 +91,6 @@ class FilledGradedSkin : public LazySolid {
         return std::max(b, std::min(f, shell_->value(p)));
     }
 
-  private:
     FieldPtr body_, filling_, shell_;
     double thickest_;
 };
@@ -95,7 +107,7 @@ class GradedShell : public Field {
         body_->values(points, out);
         for (std::size_t i = 0; i < points.size(); ++i) out[i] = -out[i] - thickness[i];
     }
-    bool takes_many() const override { return body_->takes_many(); }
+    bool takes_many() const override { return true; }
     void ranges(std::span<const Box> boxes, std::span<Interval> out) const override {
         body_->ranges(boxes, out);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -109,6 +121,9 @@ class GradedShell : public Field {
         return values;
     }
     Metric metric() const override { return Metric::sign; }
+    double deviation(const Box& box) const override {
+        return body_->deviation(box) + thickness_->range(box).width() / 2;
+    }
     Box bounds() const override { return body_->bounds(); }
 
   private:
@@ -128,7 +143,7 @@ class GradedOuterShell : public Field {
         body_->values(points, out);
         for (std::size_t i = 0; i < points.size(); ++i) out[i] -= thickness[i];
     }
-    bool takes_many() const override { return body_->takes_many(); }
+    bool takes_many() const override { return true; }
     void ranges(std::span<const Box> boxes, std::span<Interval> out) const override {
         body_->ranges(boxes, out);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -142,6 +157,9 @@ class GradedOuterShell : public Field {
         return values;
     }
     Metric metric() const override { return Metric::sign; }
+    double deviation(const Box& box) const override {
+        return body_->deviation(box) + thickness_->range(box).width() / 2;
+    }
     Box bounds() const override { return grown(body_->bounds(), greatest_); }
 
   private:

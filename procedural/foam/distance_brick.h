@@ -8,10 +8,11 @@
 #include <functional>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/solids/beam.h"
+#include "engine/solids/round_cone.h"
 
 namespace lamella {
 
@@ -20,7 +21,8 @@ namespace lamella {
 /// the voxel's diagonal. Distances are 1-Lipschitz, so no other piece is nearest anywhere in the voxel.
 /// Immutable.
 ///
-/// Piece must have signed_distance(piece, p), found by argument-dependent lookup.
+/// Piece must have signed_distance(piece, p), and prepared(piece), the form that the brick keeps, with the
+/// same distances; both are found by argument-dependent lookup.
 template <typename Piece>
 class PieceBrick {
   public:
@@ -32,15 +34,22 @@ class PieceBrick {
     /// Returns the signed distance to the union of all pieces at a point of the cube, mm.
     double distance(dvec3 p) const;
     std::size_t bytes() const {
-        return sizeof(PieceBrick) + pieces_.capacity() * sizeof(Piece) +
+        return sizeof(PieceBrick) + pieces_.capacity() * sizeof(Prepared) +
                lists_.capacity() * sizeof(lists_[0]) + begins_.capacity() * sizeof(begins_[0]);
     }
     Interval z_extent() const { return {box_.lo.z, box_.hi.z}; }
+    /// Whether the point lies in the cube; its upper faces belong to the next cubes.
+    bool holds(dvec3 p) const {
+        return box_.lo.x <= p.x && p.x < box_.hi.x && box_.lo.y <= p.y && p.y < box_.hi.y &&
+               box_.lo.z <= p.z && p.z < box_.hi.z;
+    }
 
   private:
     static constexpr int halvings = 2;          // from the cube to a voxel
     static constexpr int side = 1 << halvings;  // voxels along an edge
     static constexpr double rounding = 1e-9;
+
+    using Prepared = decltype(prepared(std::declval<const Piece&>()));
 
     struct Entry {
         double center_distance;  ///< from the voxel's centre, mm
@@ -57,7 +66,7 @@ class PieceBrick {
     void keep_used(const std::vector<Piece>& near);
 
     Box box_;
-    std::vector<Piece> pieces_;
+    std::vector<Prepared> pieces_;
     std::vector<std::uint32_t> begins_;  ///< by voxel, in octree order
     std::vector<Entry> lists_;           ///< of each voxel, sorted by distance
 };
@@ -126,7 +135,7 @@ void PieceBrick<Piece>::keep_used(const std::vector<Piece>& near) {
         std::int32_t& number = renumbered[entry.piece];
         if (number < 0) {
             number = static_cast<std::int32_t>(pieces_.size());
-            pieces_.push_back(near[entry.piece]);
+            pieces_.push_back(prepared(near[entry.piece]));
         }
         entry.piece = static_cast<std::uint32_t>(number);
     }

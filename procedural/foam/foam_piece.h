@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/solids/round_cone.h"
 #include "engine/solids/round_triangle.h"
 #include "procedural/foam/plane_strips.h"
 
@@ -13,6 +14,18 @@ namespace lamella {
 using FoamPiece = std::variant<Beam, RoundTriangle>;
 
 inline double signed_distance(const FoamPiece& piece, dvec3 p) {
+    return std::visit([&](const auto& solid) { return signed_distance(solid, p); }, piece);
+}
+
+/// A beam or a wall in the form from which distances are quick.
+using PreparedPiece = std::variant<RoundCone, RoundTriangle>;
+
+inline PreparedPiece prepared(const FoamPiece& piece) {
+    if (const auto* beam = std::get_if<Beam>(&piece)) return RoundCone(*beam);
+    return std::get<RoundTriangle>(piece);
+}
+
+inline double signed_distance(const PreparedPiece& piece, dvec3 p) {
     return std::visit([&](const auto& solid) { return signed_distance(solid, p); }, piece);
 }
 

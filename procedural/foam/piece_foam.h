@@ -26,6 +26,7 @@ class PieceFoam : public Field {
     /// Returns the minimum of the signed distances to all pieces, mm. Outside it is the exact distance;
     /// inside, its magnitude never exceeds the distance to the surface. NaN at points that are not finite.
     double value(dvec3 p) const override;
+    void values(std::span<const dvec3> points, std::span<double> out) const override;
     Interval range(const Box& box) const override;
     Metric metric() const override { return Metric::bound; }
     const SliceField& slice(SliceContext& context, double z) const override;
@@ -46,36 +47,54 @@ class PieceFoam : public Field {
   private:
     static constexpr double slab_height_in_cells = 0.125;
     static int strips_of(const Box& region, double cell);
-    PlaceKey brick_about(dvec3 p) const;
+    using Brick = PieceBrick<Piece>;
+    PlaceKey place_about(dvec3 p) const;
+    std::shared_ptr<const Brick> brick_about(dvec3 p) const;
     double side_of(int level) const { return std::ldexp(cells_.hi, -level); }
 
     Box region_;
     GradingPtr cell_;
     Interval cells_;
     double deepest_;
-    mutable CellCache<PieceBrick<Piece>> bricks_;
+    mutable CellCache<Brick> bricks_;
     PieceSlabs<Piece> slabs_;
 };
 
 template <typename Piece>
 double PieceFoam<Piece>::value(dvec3 p) const {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-        return std::numeric_limits<double>::quiet_NaN();
+    return is_finite(p) ? brick_about(p)->distance(p) : std::numeric_limits<double>::quiet_NaN();
+}
+
+template <typename Piece>
+void PieceFoam<Piece>::values(std::span<const dvec3> points, std::span<double> out) const {
+    std::shared_ptr<const Brick> brick;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const dvec3 p = points[i];
+        if (!is_finite(p)) {
+            out[i] = std::numeric_limits<double>::quiet_NaN();
+            continue;
+        }
+        // Every brick that holds a point gives the same distance, so that of the point before may serve.
+        if (!brick || !brick->holds(p)) brick = brick_about(p);
+        out[i] = brick->distance(p);
     }
-    const PlaceKey key = brick_about(p);
-    const auto brick = bricks_.find_or_make(key, p.z, [&] {
-        const double side = side_of(key.level);
-        const dvec3 index(glm::i64vec3(key.x, key.y, key.z));
-        return PieceBrick<Piece>({index * side, (index + 1.0) * side},
-                                 [this](const Box& box) { return pieces_touching(box); });
+}
+
+template <typename Piece>
+std::shared_ptr<const PieceBrick<Piece>> PieceFoam<Piece>::brick_about(dvec3 p) const {
+    const PlaceKey place = place_about(p);
+    return bricks_.find_or_make(place, p.z, [&] {
+        const double side = side_of(place.level);
+        const dvec3 index(glm::i64vec3(place.x, place.y, place.z));
+        return Brick({index * side, (index + 1.0) * side},
+                     [this](const Box& box) { return pieces_touching(box); });
     });
-    return brick->distance(p);
 }
 
 /// Any brick that contains the point gives the exact distance. One no larger than twice the smallest cell
 /// around it is quick to build and to query.
 template <typename Piece>
-PlaceKey PieceFoam<Piece>::brick_about(dvec3 p) const {
+PlaceKey PieceFoam<Piece>::place_about(dvec3 p) const {
     for (int level = 0;; ++level) {
         const double side = side_of(level);
         const dvec3 index = glm::floor(p / side);

@@ -9,7 +9,7 @@
 namespace lamella {
 namespace {
 
-constexpr double stretch = 8 * run_unit;
+constexpr double stretch = 16 * run_unit;
 constexpr double smallest_step = run_unit / 4.0;
 constexpr double precise = 1.0 / 64;  // run units
 constexpr int max_rounds = 16;

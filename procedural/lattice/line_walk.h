@@ -25,7 +25,7 @@ class LineFunction {
 };
 
 /// Finds where the function is negative on each of `lines` lines. Appends to `out` one line of runs within
-/// [lo, hi) for each. Intervals of 8 pixels are halved until the values at both ends prove that there is no
+/// [lo, hi) for each. Intervals of 16 pixels are halved until the values at both ends prove that there is no
 /// sign change between them, or down to a quarter pixel. Then sign changes are refined to 1/64 of a run unit.
 /// Each step is evaluated on many lines at once. Intervals start at integer multiples of their length, so a
 /// run does not depend on where the line begins. NaN is outside.

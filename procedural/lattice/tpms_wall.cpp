@@ -148,6 +148,11 @@ std::optional<TpmsWall::Nearest> TpmsWall::signed_distance(const TpmsPoint& poin
     return Nearest{distance, normal, curvature * glm::inverse(glm::dmat3(1) + distance * curvature), foot};
 }
 
+double TpmsWall::least_distance(const TpmsPoint& point) const {
+    const TpmsSample sample = tpms_sample(kind_, point);
+    return std::max(shortest(std::abs(sample.g), glm::length(sample.gradient), g_.sharpest), sole_);
+}
+
 Interval TpmsWall::range(const Box& angles, Interval half) const {
     const Interval g = tpms_range(kind_, angles);
     const double least = g.contains(0) ? 0 : std::min(std::abs(g.lo), std::abs(g.hi));

@@ -34,6 +34,8 @@ class TpmsWall {
     /// distance is at least about radius_of_uniqueness(). The search may begin near the nearest point of a
     /// point beside, `start` from this one.
     std::optional<Nearest> signed_distance(const TpmsPoint& point, std::optional<dvec3> start) const;
+    /// Returns a lower bound of the distance from the surface where signed_distance() returns nothing.
+    double least_distance(const TpmsPoint& point) const;
     /// The distance below which a point of space has one nearest point, which the search finds; measured.
     double radius_of_uniqueness() const { return sole_; }
     /// Returns bounds of the values over a box of angles, for all half thicknesses of an interval.

@@ -15,6 +15,12 @@ double hermite(double a, double da, double b, double db, double t) {
     return u * u * ((1 + 2 * t) * a + t * da) + t * t * ((1 + 2 * u) * b - u * db);
 }
 
+/// Returns a lower bound of a distance between two nodes, from those at the nodes: it changes by at most 1
+/// per radian.
+double least_between(double a, double b, double t) {
+    return std::max(a - t * WallPlane::step, b - (1 - t) * WallPlane::step);
+}
+
 }  // namespace
 
 WallLine::WallLine(const WallPlane& plane, Axis axis, double across) : plane_(&plane), axis_(axis) {
@@ -27,7 +33,11 @@ WallLine::WallLine(const WallPlane& plane, Axis axis, double across) : plane_(&p
             return axis == Axis::x ? plane.node(i, row) : plane.node(row, i);
         };
         const WallPlane::Node &a = node(j), &b = node(j + 1);
-        if (!a.known || !b.known) continue;
+        if (!a.known || !b.known) {
+            nodes_[static_cast<std::size_t>(i)].distance =
+                least_between(std::abs(a.distance), std::abs(b.distance), t);
+            continue;
+        }
         nodes_[static_cast<std::size_t>(i)] =
             axis == Axis::x ? Node{hermite(a.distance, a.along_y, b.distance, b.along_y, t),
                                    hermite(a.along_x, a.mixed, b.along_x, b.mixed, t), true}
@@ -37,8 +47,9 @@ WallLine::WallLine(const WallPlane& plane, Axis axis, double across) : plane_(&p
     nodes_.back() = nodes_.front();
 }
 
-/// `turns` is within [0, 1].
-double WallLine::searched(double turns, double half) const {
+/// Where a node is not known: `least` is a lower bound of the distance; `turns` is within [0, 1].
+double WallLine::untabulated(double turns, double half, double least) const {
+    if (half < least) return least - half;
     const SineCosine turn = sine_cosine(turns * (2 * pi));
     return plane_->wall().bound(tpms_point_on(axis_, turn, across_, plane_->z()), half);
 }
@@ -47,13 +58,16 @@ double WallLine::bound(double turns, double half) const {
     const double turn = turns - std::floor(turns), place = turn * parts;
     const auto i = std::min(static_cast<std::size_t>(place), std::size_t{parts - 1});
     const Node &a = nodes_[i], &b = nodes_[i + 1];
-    if (!a.known || !b.known) return searched(turn, half);
-    return std::abs(hermite(a.distance, a.slope, b.distance, b.slope, place - static_cast<double>(i))) - half;
+    const double t = place - static_cast<double>(i);
+    if (!a.known || !b.known)
+        return untabulated(turn, half, least_between(std::abs(a.distance), std::abs(b.distance), t));
+    return std::abs(hermite(a.distance, a.slope, b.distance, b.slope, t)) - half;
 }
 
 double WallLine::bound_at(std::size_t node, double half) const {
     const Node& at = nodes_[node];
-    return at.known ? std::abs(at.distance) - half : searched(static_cast<double>(node) / parts, half);
+    return at.known ? std::abs(at.distance) - half
+                    : untabulated(static_cast<double>(node) / parts, half, at.distance);
 }
 
 void WallLine::find_runs(double half, std::vector<Interval>& out) const {

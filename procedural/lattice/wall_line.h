@@ -24,13 +24,14 @@ class WallLine {
     void find_runs(double half, std::vector<Interval>& out) const;
 
   private:
+    /// As in a plane.
     struct Node {
         double distance = 0, slope = 0;
         bool known = false;
     };
     static constexpr int parts = WallPlane::parts;
 
-    double searched(double turns, double half) const;
+    double untabulated(double turns, double half, double least) const;
     double bound_at(std::size_t node, double half) const;
     void find_crossings(Interval turns, Interval values, double half, int depth,
                         std::vector<double>& crossings) const;

@@ -19,7 +19,10 @@ WallPlane::WallPlane(const TpmsWall& wall, const SineCosine& z) : wall_(wall), z
             if (nearest) start = nearest->foot - dvec3(step, 0, 0);
             if (i == 0) row_start.reset();
             if (i == 0 && nearest) row_start = nearest->foot - dvec3(0, step, 0);
-            if (!nearest) continue;
+            if (!nearest) {
+                nodes_[k].distance = wall.least_distance({turns[i], y, z});
+                continue;
+            }
             const auto& [distance, normal, hessian, foot] = *nearest;
             nodes_[k] = {distance, normal.x * step, normal.y * step, hessian[0][1] * (step * step), true};
         }

@@ -16,7 +16,8 @@ class WallPlane {
 
     /// Derivatives are those per step.
     struct Node {
-        double distance = 0, along_x = 0, along_y = 0, mixed = 0;
+        double distance = 0;  ///< if it is not known, a lower bound of its magnitude
+        double along_x = 0, along_y = 0, mixed = 0;
         bool known = false;  ///< where the nearest point of the surface is known to be the only one
     };
 

@@ -146,8 +146,8 @@ SurfaceWindows::Cell SurfaceWindows::make_cell(const std::vector<SurfaceFoot>& s
 }
 
 /// Returns how far a point (relative to the seed) lies outside the window shrunk by its corners' radius, mm:
-/// the largest distance to any wedge of two of its faces.
-double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
+/// the largest distance to any wedge of two of its faces. It is a convex function.
+SurfaceWindows::Excess SurfaceWindows::excess(const Cell& cell, dvec3 q, int axis) const {
     // maximum number of faces with rounded edges; cells on a surface have about six
     constexpr std::size_t most = 32;
     struct Shrunk {
@@ -158,13 +158,13 @@ double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
     std::size_t count = 0;
     const double inset = cell.inset + cell.corner;
     const double cube = reach_ - std::max(std::max(std::abs(q.x), std::abs(q.y)), std::abs(q.z));
-    double worst = inset - cube;
+    Excess worst{inset - cube, 0};
     for (std::uint32_t f = cell.first; f < cell.walls_end; ++f) {
         const double by = inset - (faces_[f].distance - glm::dot(faces_[f].normal, q));
-        worst = std::max(worst, by);
+        if (by > worst.value) worst = {by, faces_[f].normal[axis]};
         if (count < most) shrunk[count++] = {faces_[f].normal, by};
     }
-    if (worst <= 0) return worst;
+    if (worst.value <= 0) return worst;
     for (std::size_t i = 0; i < count; ++i) {
         const double a = shrunk[i].by;
         if (a <= 0) continue;
@@ -177,10 +177,95 @@ double SurfaceWindows::excess(const Cell& cell, dvec3 q) const {
             // alone.
             if (!(b > a * cosine) || sine_squared < 1e-9) continue;
             const double squared = (a * a + b * b - 2 * a * b * cosine) / sine_squared;
-            if (squared > worst * worst) worst = std::sqrt(squared);
+            if (!(squared > worst.value * worst.value)) continue;
+            const double distance = std::sqrt(squared), da = shrunk[i].normal[axis],
+                         db = shrunk[j].normal[axis];
+            worst = {distance, (a * da + b * db - cosine * (a * db + b * da)) / (sine_squared * distance)};
         }
     }
     return worst;
+}
+
+/// Returns the interval of the line through q (relative to the seed) along the axis that lies in the cell's
+/// window, relative to the seed; empty if none does. A window is convex.
+Interval SurfaceWindows::window_on(const Cell& cell, dvec3 q, int axis) const {
+    Interval open{-infinity, infinity};
+    for (int k = 0; k < 3; ++k) {
+        const double free = reach_ - cell.inset;
+        if (k == axis) open = {-free, free};
+        if (k != axis && std::abs(q[k]) >= free) return {};
+    }
+    q[axis] = 0;
+    for (std::uint32_t f = cell.first; f < cell.walls_end; ++f) {
+        const double room = faces_[f].distance - cell.inset - glm::dot(faces_[f].normal, q);
+        const double rate = faces_[f].normal[axis];
+        if (rate > 0) open.hi = std::min(open.hi, room / rate);
+        if (rate < 0) open.lo = std::max(open.lo, room / rate);
+        if (rate == 0 && room <= 0) return {};
+    }
+    if (!(open.lo < open.hi) || cell.corner == 0) return open;
+    q[axis] = open.lo;
+    open.lo = rounded_end(cell, q, axis, 1);
+    q[axis] = open.hi;
+    open.hi = rounded_end(cell, q, axis, -1);
+    return open;
+}
+
+/// Returns the coordinate at which a line enters a window with rounded edges: by Newton's method from q,
+/// which lies outside or on the border, in the direction `inward` (1 or -1). Infinitely far inward if it
+/// passes by.
+double SurfaceWindows::rounded_end(const Cell& cell, dvec3 q, int axis, double inward) const {
+    constexpr int most_steps = 64;
+    constexpr double near_enough = 1e-8, rounding = 1e-12;  // mm
+    for (int step = 0; step < most_steps; ++step) {
+        const Excess beyond = excess(cell, q, axis);
+        const double way = beyond.value - cell.corner;
+        if (way <= rounding) break;
+        if (!(beyond.slope * inward < 0)) return inward * infinity;
+        // Excess is convex, so steps never pass the border.
+        const double length = -way / (beyond.slope * inward);
+        q[axis] += inward * length;
+        if (length < near_enough) break;
+    }
+    return q[axis];
+}
+
+/// Returns the coordinate, relative to the seed, at which the line through q leaves the cell.
+double SurfaceWindows::way_to_border(const Cell& cell, dvec3 q, int axis) const {
+    double leaves = reach_;
+    q[axis] = 0;
+    for (std::uint32_t f = cell.first; f < cell.end; ++f) {
+        const double rate = faces_[f].normal[axis];
+        if (rate > 0) leaves = std::min(leaves, (faces_[f].distance - glm::dot(faces_[f].normal, q)) / rate);
+    }
+    return leaves;
+}
+
+bool SurfaceWindows::windows_on(dvec3 p, int axis, Interval part, std::uint32_t& hint,
+                                std::vector<Interval>& out) const {
+    constexpr double beyond = 1e-7;  // mm, from one cell into the next
+    for (double at = part.lo; at < part.hi;) {
+        p[axis] = at;
+        hint = tree_.nearest(p, hint).point;
+        const Cell& cell = cells_[hint];
+        const dvec3 place = tree_.points()[hint], q = p - place;
+        const double leaves = std::min(place[axis] + way_to_border(cell, q, axis), part.hi);
+        if (!(leaves > at)) {
+            // Outside the cube that the cell was clipped from all is solid, half a strut deep.
+            const bool is_outside = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) >= reach_;
+            at += is_outside ? min_inset_ : beyond;
+            continue;
+        }
+        if (!cell.closed) {
+            Interval open = window_on(cell, q, axis);
+            open = {std::max(open.lo + place[axis], at), std::min(open.hi + place[axis], leaves)};
+            const bool goes_on = !out.empty() && open.lo <= out.back().hi + 2 * beyond;
+            if (open.lo < open.hi && goes_on) out.back().hi = open.hi;
+            if (open.lo < open.hi && !goes_on) out.push_back(open);
+        }
+        at = leaves + beyond;
+    }
+    return true;
 }
 
 SurfaceWindows::Ways SurfaceWindows::ways_out(const Cell& cell, dvec3 q) const {
@@ -208,7 +293,7 @@ double SurfaceWindows::value_near(dvec3 p, std::uint32_t& hint) const {
     const double to_wall = ways.wall, to_border = ways.border;
     const double solid = std::min(to_wall + cell.beyond, to_border);
     if (cell.closed) return -solid;
-    const double outside = excess(cell, q) - cell.corner;
+    const double outside = excess(cell, q, 0).value - cell.corner;
     return outside < 0 ? std::min(-outside, to_border) : -std::min(outside, solid);
 }
 

@@ -30,6 +30,8 @@ class SurfaceWindows : public WindowPattern {
     SurfaceWindows(const std::vector<SurfaceFoot>& seeds, const SurfaceWindowSettings& settings);
 
     double value_near(dvec3 p, std::uint32_t& hint) const override;
+    bool windows_on(dvec3 p, int axis, Interval part, std::uint32_t& hint,
+                    std::vector<Interval>& out) const override;
 
     /// The number of seeds, and of seeds whose cells have no window.
     std::size_t seed_count() const { return cells_.size(); }
@@ -53,7 +55,14 @@ class SurfaceWindows : public WindowPattern {
     double neighbourhood() const { return 2 * std::sqrt(3.0) * reach_; }
 
     Cell make_cell(const std::vector<SurfaceFoot>& seeds, std::uint32_t own, double half, double min_room);
-    double excess(const Cell& cell, dvec3 q) const;
+    struct Excess {
+        double value;  ///< mm
+        double slope;  ///< along an axis
+    };
+    Excess excess(const Cell& cell, dvec3 q, int axis) const;
+    Interval window_on(const Cell& cell, dvec3 q, int axis) const;
+    double rounded_end(const Cell& cell, dvec3 q, int axis, double inward) const;
+    double way_to_border(const Cell& cell, dvec3 q, int axis) const;
     /// Distances of a point (relative to the seed) from the planes of a cell's faces, mm.
     struct Ways {
         double wall = infinity, border = infinity;

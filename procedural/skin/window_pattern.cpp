@@ -1,5 +1,8 @@
-// Walks along the shell's runs, in steps as long as the pattern's value allows.
+// Cuts the shell's runs by windows in closed form, or walks along them in steps as long as the pattern's
+// value allows.
 #include "procedural/skin/window_pattern.h"
+
+#include <algorithm>
 
 #include "engine/base/error.h"
 #include "engine/field/crossing_bracket.h"
@@ -22,15 +25,33 @@ class LineWalk {
     /// Appends the solid parts of the runs of a line.
     void cut(int line, std::span<const Run> runs, RunRows& out) {
         across_ = band_.line(line);
-        for (const Run& run : runs) cut(run, out);
+        for (const Run& run : runs) {
+            if (!cut_closed(run, out)) cut(run, out);
+        }
         out.end_line();
     }
 
   private:
-    double value(double u) {
-        const double along = band_.along(u);
-        const dvec3 p = band_.axis == Axis::x ? dvec3(along, across_, z_) : dvec3(across_, along, z_);
-        return pattern_.value_near(p, hint_);
+    dvec3 point(double along) const {
+        return band_.axis == Axis::x ? dvec3(along, across_, z_) : dvec3(across_, along, z_);
+    }
+    double value(double u) { return pattern_.value_near(point(band_.along(u)), hint_); }
+
+    bool cut_closed(const Run& run, RunRows& out) {
+        const double a = band_.along(run.begin), b = band_.along(run.end);
+        windows_.clear();
+        const int axis = band_.axis == Axis::x ? 0 : 1;
+        if (!pattern_.windows_on(point(a), axis, {std::min(a, b), std::max(a, b)}, hint_, windows_))
+            return false;
+        if (b < a) std::ranges::reverse(windows_);
+        std::int32_t from = run.begin;
+        for (const Interval& window : windows_) {
+            const double first = band_.coordinate(window.lo), last = band_.coordinate(window.hi);
+            push(run, from, round_run(std::min(first, last)), out);
+            from = round_run(std::max(first, last));
+        }
+        push(run, from, run.end, out);
+        return true;
     }
 
     void cut(const Run& run, RunRows& out) {
@@ -78,6 +99,7 @@ class LineWalk {
     double step_;  ///< mm
     double across_ = 0;
     std::uint32_t hint_ = 0;
+    std::vector<Interval> windows_;
 };
 
 class PatternedSlice : public SampledSlice {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "engine/field/field.h"
 
@@ -19,14 +20,21 @@ class WindowPattern : public Field {
     /// Returns the value. `hint` is private to the pattern; pass 0 first, and keep it between calls for
     /// nearby points. It affects only the time, never the value.
     virtual double value_near(dvec3 p, std::uint32_t& hint) const = 0;
+    /// Appends the parts of a line that lie in windows, ascending, and returns true; false where the pattern
+    /// has no closed form for them. The line runs through p along an axis (0 to 2), and `part` bounds its
+    /// coordinate, mm. `hint` as in value_near().
+    virtual bool windows_on(dvec3 /*p*/, int /*axis*/, Interval /*part*/, std::uint32_t& /*hint*/,
+                            std::vector<Interval>& /*out*/) const {
+        return false;
+    }
     Interval range(const Box& box) const override;
     Metric metric() const override { return Metric::bound; }
     Box bounds() const override { return {dvec3(-infinity), dvec3(infinity)}; }
 };
 
-/// Returns the shell without the pattern's windows. Its runs are those of the shell, cut where the pattern's
-/// value changes sign. Samples are a quarter of a pixel apart; those whose sign follows from an earlier value
-/// are skipped.
+/// Returns the shell without the pattern's windows. Its runs are those of the shell, cut by the pattern's
+/// windows along them, or else where the pattern's value changes sign. Samples are a quarter of a pixel apart
+/// then; those whose sign follows from an earlier value are skipped.
 FieldPtr make_patterned_shell(FieldPtr shell, std::shared_ptr<const WindowPattern> pattern);
 
 }  // namespace lamella

@@ -44,10 +44,12 @@ class OneByOne : public TileSampledSolid {
 
 class ManyAtOnce : public BatchSampledSolid {
   public:
-    explicit ManyAtOnce(const Plane& plane) : plane_(plane) {}
+    explicit ManyAtOnce(const Plane& plane, double deviation = infinity)
+        : plane_(plane), deviation_(deviation) {}
     void ranges(std::span<const Rect> tiles, std::span<Interval> out) override {
         for (std::size_t i = 0; i < tiles.size(); ++i) out[i] = plane_.range(tiles[i]);
     }
+    double deviation(const Rect& /*tile*/) override { return deviation_; }
     void values(const WalkPoints& points, std::span<double> out) override {
         asked.push_back(points.count());
         plane_.values(points, out);
@@ -57,6 +59,7 @@ class ManyAtOnce : public BatchSampledSolid {
 
   private:
     const Plane& plane_;
+    double deviation_;
 };
 
 /// Bands in both directions, mirrored ones, ones with lines between, and ones of odd shapes.
@@ -140,6 +143,24 @@ TEST_CASE("tiles that need not be walked one by one are sampled by the hundred p
         // Memory stays bounded however wide a band is.
         CHECK(*std::max_element(many.asked.begin(), many.asked.end()) < 20'000);
     }
+}
+
+TEST_CASE("a distance that deviates a little is sampled less, for the same runs") {
+    const Plane exact = discs(7, Metric::exact);
+    constexpr double most = 0.004;  // mm
+    const Plane wavy{[&](dvec2 p) { return exact.value(p) + most * std::sin(90 * p.x) * std::cos(70 * p.y); },
+                     Metric::sign};
+    std::size_t few = 0, all = 0;
+    for (const RowBand& band : bands()) {
+        ManyAtOnce by_signs(wavy), by_deviation(wavy, most);
+        RunRows expected, rows;
+        sampled_spans(by_signs, Metric::sign, band, expected);
+        sampled_spans(by_deviation, Metric::sign, band, rows);
+        REQUIRE(rows == expected);
+        all += std::accumulate(by_signs.asked.begin(), by_signs.asked.end(), std::size_t{0});
+        few += std::accumulate(by_deviation.asked.begin(), by_deviation.asked.end(), std::size_t{0});
+    }
+    CHECK(2 * few < all);
 }
 
 }  // namespace tile_walk_test

@@ -315,4 +315,41 @@ TEST_CASE("windows that cannot be are refused") {
     CHECK_THROWS_AS(make_patterned_shell(make_shell(ball, 1), nullptr), InputError);
 }
 
+TEST_CASE("windows along a line are where points of it lie in windows", "[windows]") {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-6.5, 6.5);
+    const FieldPtr ball = make_sphere(dvec3(0), 6), thin = make_box({{-6, -6, -0.6}, {6, 6, 0.6}});
+    for (const auto& [body, depth] : {std::pair(ball, 1.5), std::pair(thin, 1.0)}) {
+        for (const double corner : {0.0, 0.3, 2.0}) {
+            const auto pattern = make_voronoi_windows(*body, settings_of(1.5, 0.5, corner, depth), 3);
+            const auto hexagons = make_hexagon_windows(*body, settings_of(2, 0.4, corner, depth));
+            int open = 0, wrong = 0;
+            for (const SurfaceWindows* const windows : {pattern.get(), hexagons.get()}) {
+                for (int i = 0; i < 400; ++i) {
+                    const int axis = i % 3;
+                    const dvec3 through(place(random), place(random), place(random));
+                    std::vector<Interval> found;
+                    std::uint32_t hint = 0;
+                    REQUIRE(windows->windows_on(through, axis, {-7, 7}, hint, found));
+                    CHECK(std::ranges::is_sorted(found, {}, [](const Interval& part) { return part.lo; }));
+                    for (int k = 0; k < 300; ++k) {
+                        dvec3 p = through;
+                        p[axis] = place(random);
+                        // Windows reach through the skin, seeds no farther.
+                        if (std::abs(body->value(p)) > depth) continue;
+                        const double value = windows->value(p);
+                        const bool inside = std::ranges::any_of(
+                            found, [&](const Interval& part) { return part.contains(p[axis]); });
+                        if (std::abs(value) > 1e-6 && inside != (value > 0)) ++wrong;
+                        open += inside ? 1 : 0;
+                    }
+                }
+            }
+            INFO("corner " << corner << ", depth " << depth);
+            CHECK(open > 1000);
+            CHECK(wrong == 0);
+        }
+    }
+}
+
 }  // namespace surface_windows_test
