@@ -25,13 +25,14 @@ ImageWindows::ImageWindows(StrutImage image, const Field& body, double strut, do
       bounds_(body.bounds()),
       charts_(body, strut / cubes_in_a_strut, depth) {}
 
-double ImageWindows::value_near(dvec3 p, std::uint32_t& /*hint*/) const {
-    const auto chart = charts_.at(p);
-    if (!chart) return -std::numeric_limits<double>::min();
-    const dvec2 place = on_picture(*chart, bounds_, p);
+double ImageWindows::value_near(dvec3 p, std::uint32_t& hint) const {
+    const std::uint32_t leaf = charts_.leaf_at(p, hint);
+    if (leaf == SurfaceCharts::none) return -std::numeric_limits<double>::min();
+    hint = leaf;
+    const dvec2 place = on_picture(charts_.chart(leaf), bounds_, p);
     const double image = image_.value(place.x, place.y);
     const double limit = std::abs(image) + half_strut_;
-    const double seam = charts_.seam_distance(p, limit) - half_strut_;
+    const double seam = charts_.seam_distance(leaf, p, limit) - half_strut_;
     if (seam > 0 && image > 0) return std::min(seam, image);
     // The path to another chart's windows crosses the whole strut along the seam.
     return -std::max(-seam, std::min(-image, seam + 2 * half_strut_));

@@ -61,7 +61,7 @@ SurfaceCharts::SurfaceCharts(const Field& body, double finest, double depth) : f
                                      diagonal(body.bounds())));
     }
     const double step = slope_step * finest;
-    std::vector<std::pair<LatticeCube, Chart>> leaves;
+    std::vector<LatticeCube> cubes;
     walk_surface(
         body, finest * largest_chart, depth,
         [&](const LatticeCube& cube) {
@@ -70,15 +70,22 @@ SurfaceCharts::SurfaceCharts(const Field& body, double finest, double depth) : f
         [&](const LatticeCube& cube) {
             const auto chart = chart_of(body, cube.box().center(), step);
             if (!chart) return;
-            if (leaves.size() == max_leaves) {
+            if (leaves_.size() == max_leaves) {
                 throw InputError("struts are too narrow for so large a surface; accepted: wider ones");
             }
-            leaves_[{level_of(cube.side, finest_), cube.index}] = *chart;
-            leaves.emplace_back(cube, *chart);
+            const Key key{level_of(cube.side, finest_), cube.index};
+            numbers_[key] = static_cast<std::uint32_t>(leaves_.size());
+            leaves_.push_back({key, *chart});
+            cubes.push_back(cube);
         });
     std::vector<dvec3> seams;
-    for (const auto& [cube, chart] : leaves) collect_seams(cube, chart, seams);
+    for (std::size_t i = 0; i < cubes.size(); ++i) collect_seams(cubes[i], leaves_[i].chart, seams);
     seams_ = std::make_unique<const PointTree>(std::move(seams));
+    const double far = 4 * largest_chart * finest_;
+    for (std::size_t i = 0; i < cubes.size(); ++i) {
+        const Box box = cubes[i].box();
+        leaves_[i].clear = seams_->distance_within(box.center(), far) - 0.5 * diagonal(box);
+    }
 }
 
 SurfaceCharts::Key SurfaceCharts::key(dvec3 p, int level) const {
@@ -87,11 +94,17 @@ SurfaceCharts::Key SurfaceCharts::key(dvec3 p, int level) const {
     return {level, {index(p.x), index(p.y), index(p.z)}};
 }
 
-std::optional<Chart> SurfaceCharts::at(dvec3 p) const {
+std::uint32_t SurfaceCharts::leaf_at(dvec3 p, std::uint32_t guess) const {
+    if (guess < leaves_.size() && key(p, leaves_[guess].key.level) == leaves_[guess].key) return guess;
     for (int level = 0; level < levels; ++level) {
-        if (const auto found = leaves_.find(key(p, level)); found != leaves_.end()) return found->second;
+        if (const auto found = numbers_.find(key(p, level)); found != numbers_.end()) return found->second;
     }
-    return std::nullopt;
+    return none;
+}
+
+std::optional<Chart> SurfaceCharts::at(dvec3 p) const {
+    const std::uint32_t leaf = leaf_at(p);
+    return leaf == none ? std::nullopt : std::optional(chart(leaf));
 }
 
 /// Appends the centres of those faces of a cube that border another chart, in squares of the finest cube's
@@ -117,10 +130,11 @@ void SurfaceCharts::collect_seams(const LatticeCube& cube, Chart chart, std::vec
     }
 }
 
-double SurfaceCharts::seam_distance(dvec3 p, double limit) const {
+double SurfaceCharts::seam_distance(std::uint32_t leaf, dvec3 p, double limit) const {
     constexpr double half_diagonal = 0.7072;  // of a square
-    const double slack = half_diagonal * finest_;
-    return seams_->distance_within(p, limit + slack) - slack;
+    const double slack = half_diagonal * finest_, reach = limit + slack;
+    const bool is_clear = reach <= leaves_[leaf].clear;
+    return (is_clear ? reach : seams_->distance_within(p, reach)) - slack;
 }
 
 }  // namespace lamella

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/field/field.h"
 #include "procedural/skin/surface_walk.h"
@@ -30,17 +31,27 @@ class SurfaceCharts {
     /// of this size.
     SurfaceCharts(const Field& body, double finest, double depth);
 
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
+    /// Returns the number of the leaf that holds p; `none` away from the surface. `guess` may be any number;
+    /// the leaf of a point nearby is quick to confirm.
+    std::uint32_t leaf_at(dvec3 p, std::uint32_t guess = none) const;
+    Chart chart(std::uint32_t leaf) const { return leaves_[leaf].chart; }
     /// Returns the chart at p; none away from the surface.
     std::optional<Chart> at(dvec3 p) const;
-    /// Returns a lower bound of the distance to the nearest seam between charts, mm, at most `limit`. It is
-    /// too low by at most 0.71 of the finest cube. 1-Lipschitz.
-    double seam_distance(dvec3 p, double limit) const;
+    /// Returns a lower bound of the distance from a point of a leaf to the nearest seam between charts, mm,
+    /// at most `limit`. It is too low by at most 0.71 of the finest cube. 1-Lipschitz.
+    double seam_distance(std::uint32_t leaf, dvec3 p, double limit) const;
 
   private:
     struct Key {
         int level;
         glm::i64vec3 index;
         friend bool operator==(const Key&, const Key&) = default;
+    };
+    struct Leaf {
+        Key key;
+        Chart chart;
+        double clear = 0;  ///< distance within which no point of the leaf has a seam, mm
     };
     struct Hash {
         std::size_t operator()(const Key& key) const;
@@ -50,8 +61,9 @@ class SurfaceCharts {
     void collect_seams(const LatticeCube& cube, Chart chart, std::vector<dvec3>& seams) const;
 
     double finest_;  ///< mm
-    std::unordered_map<Key, Chart, Hash> leaves_;
-    std::unique_ptr<const PointTree> seams_;  ///< centres of the finest faces between charts
+    std::vector<Leaf> leaves_;
+    std::unordered_map<Key, std::uint32_t, Hash> numbers_;  ///< of the leaves
+    std::unique_ptr<const PointTree> seams_;                ///< centres of the finest faces between charts
 };
 
 }  // namespace lamella

@@ -215,6 +215,27 @@ TEST_CASE("a strut runs along the seams, at least as wide as stated on both side
     }
 }
 
+TEST_CASE("a hint, right or wrong, changes no value") {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> place(-6, 6);
+    const FieldPtr ball = make_sphere(dvec3(0), 5);
+    const StrutImage image(picture(grid), {4, 0.5, 0.5, false});
+    const ImageWindows windows(image, *ball, 0.5, 1);
+    std::uint32_t kept = 0;
+    int open = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const dvec3 p(place(random), place(random), place(random));
+        std::uint32_t any = static_cast<std::uint32_t>(random());
+        const double expected = windows.value(p);
+        REQUIRE(windows.value_near(p, any) == expected);
+        REQUIRE(windows.value_near(p, kept) == expected);
+        // From where the hint was left, too.
+        REQUIRE(windows.value_near(p + dvec3(0.01), kept) == windows.value(p + dvec3(0.01)));
+        open += expected > 0 ? 1 : 0;
+    }
+    CHECK(open > 500);
+}
+
 TEST_CASE("no strut of a picture begins or ends nearer than the value says") {
     const StrutImage image(picture(grid), {8, 0.9, 0.5, false});
     const ImageWindows windows(image, *make_sphere(dvec3(0), 9), 0.9, 1);
