@@ -11,11 +11,16 @@
 namespace lamella {
 namespace {
 
-/// Delegates all but the value at a point to the CSG solid. A subclass evaluates the body once per value, and
+/// Delegates all but the values at points to the CSG solid. A subclass evaluates the body once per value, and
 /// its distance only up to the limit that matters: deep inside, the filling alone decides.
 class LazySolid : public Field {
   public:
-    explicit LazySolid(FieldPtr solid) : solid_(std::move(solid)) {}
+    LazySolid(FieldPtr filling, FieldPtr solid) : filling_(std::move(filling)), solid_(std::move(solid)) {}
+    double value(dvec3 p) const override { return value_of(p, filling_->value(p)); }
+    void values(std::span<const dvec3> points, std::span<double> out) const override {
+        filling_->values(points, out);
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = value_of(points[i], out[i]);
+    }
     Interval range(const Box& box) const override { return solid_->range(box); }
     Metric metric() const override { return solid_->metric(); }
     FieldPtr offset(double d) const override { return solid_->offset(d); }
@@ -28,26 +33,19 @@ class LazySolid : public Field {
     double slow_value(dvec3 p) const { return solid_->value(p); }
 
   private:
-    FieldPtr solid_;
+    /// Returns the value at a point where that of the filling is `f`.
+    virtual double value_of(dvec3 p, double f) const = 0;
+
+    FieldPtr filling_, solid_;
 };
 
 class FilledBody : public LazySolid {
   public:
     FilledBody(FieldPtr body, FieldPtr filling, double thickness, FieldPtr solid)
-        : LazySolid(std::move(solid)),
-          body_(std::move(body)),
-          filling_(std::move(filling)),
-          thickness_(thickness) {}
-
-    double value(dvec3 p) const override { return value_of(p, filling_->value(p)); }
-    void values(std::span<const dvec3> points, std::span<double> out) const override {
-        filling_->values(points, out);
-        for (std::size_t i = 0; i < points.size(); ++i) out[i] = value_of(points[i], out[i]);
-    }
+        : LazySolid(std::move(filling), std::move(solid)), body_(std::move(body)), thickness_(thickness) {}
 
   private:
-    /// `f` is the filling's value.
-    double value_of(dvec3 p, double f) const {
+    double value_of(dvec3 p, double f) const override {
         // Inside, at depth d: max(-d, min(f, d - thickness)), which is f once d reaches both -f and f +
         // thickness.
         const double enough = std::max(-f, thickness_ > 0 ? f + thickness_ : 0.0);
@@ -60,29 +58,21 @@ class FilledBody : public LazySolid {
         return std::max(b, thickness_ > 0 ? std::min(f, -b - thickness_) : f);
     }
 
-    FieldPtr body_, filling_;
+    FieldPtr body_;
     double thickness_;
 };
 
 /// A filled body under a skin of graded thickness, which is evaluated only where the skin can reach.
 class FilledGradedSkin : public LazySolid {
   public:
-    FilledGradedSkin(FieldPtr body, FieldPtr filling, FieldPtr shell, double thickest)
-        : LazySolid(make_intersection({body, make_union({filling, shell})})),
+    FilledGradedSkin(FieldPtr body, const FieldPtr& filling, FieldPtr shell, double thickest)
+        : LazySolid(filling, make_intersection({body, make_union({filling, shell})})),
           body_(std::move(body)),
-          filling_(std::move(filling)),
           shell_(std::move(shell)),
           thickest_(thickest) {}
 
-    double value(dvec3 p) const override { return value_of(p, filling_->value(p)); }
-    void values(std::span<const dvec3> points, std::span<double> out) const override {
-        filling_->values(points, out);
-        for (std::size_t i = 0; i < points.size(); ++i) out[i] = value_of(points[i], out[i]);
-    }
-
   private:
-    /// `f` is the filling's value.
-    double value_of(dvec3 p, double f) const {
+    double value_of(dvec3 p, double f) const override {
         // At depth d the shell's value is at least d - thickest.
         const double enough = std::max(-f, f + thickest_);
         const double b = body_->value_within(p, enough > 0 && std::isfinite(enough) ? enough : infinity);
@@ -91,7 +81,7 @@ class FilledGradedSkin : public LazySolid {
         return std::max(b, std::min(f, shell_->value(p)));
     }
 
-    FieldPtr body_, filling_, shell_;
+    FieldPtr body_, shell_;
     double thickest_;
 };
 
@@ -289,8 +279,7 @@ FieldPtr make_filled_body(FieldPtr body, FieldPtr filling, const GradingPtr& thi
     if (asked.width() == 0) return make_filled_body(std::move(body), std::move(filling), asked.hi);
     FieldPtr shell = make_shell(body, thickness, limits);
     if (!filling) return make_intersection({std::move(body), std::move(shell)});
-    return std::make_shared<FilledGradedSkin>(std::move(body), std::move(filling), std::move(shell),
-                                              asked.hi);
+    return std::make_shared<FilledGradedSkin>(std::move(body), filling, std::move(shell), asked.hi);
 }
 
 }  // namespace lamella

@@ -28,7 +28,7 @@ class WallPlane {
     const SineCosine& z() const { return z_; }
     /// The node at x = i steps, y = j steps; 0 <= i, j <= parts.
     const Node& node(int i, int j) const {
-        return nodes_[static_cast<std::size_t>(j % parts * parts + i % parts)];
+        return nodes_[static_cast<std::size_t>(j % parts) * parts + static_cast<std::size_t>(i % parts)];
     }
 
   private:
