@@ -265,7 +265,7 @@ TEST_CASE("paths of a layer are given up for those of another one, and for a new
         "infill_density = 0.4\n";
     const std::string layers = "/api/jobs/" + server.build(recipe) + "/layers/";
     const auto status_of = [&](int layer) {
-        return server.send("GET", layers + std::to_string(layer) + "/paths?session=test")->status;
+        return server.status("GET", layers + std::to_string(layer) + "/paths?session=test");
     };
     int first = 0, second = 0;
     std::thread asking([&] { first = status_of(8); });
@@ -279,7 +279,7 @@ TEST_CASE("paths of a layer are given up for those of another one, and for a new
     CHECK(server.send("GET", layers + "0/contours?session=test")->status == 200);
     // Other sessions and those without one are not concerned.
     const auto paths = [&](const std::string& rest) {
-        return server.send("GET", layers + "19/paths" + rest)->status;
+        return server.status("GET", layers + "19/paths" + rest);
     };
     std::thread other([&] { first = paths("?session=other"); });
     second = paths("");
