@@ -1,8 +1,6 @@
 // Closed forms of the round cone: its distance, and its intersection with a line.
 #include "engine/solids/beam.h"
 
-#include "engine/solids/round_cone.h"
-
 namespace lamella {
 namespace {
 

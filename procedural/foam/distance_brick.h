@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/solids/round_cone.h"
+#include "engine/solids/beam.h"
 
 namespace lamella {
 

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/solids/round_cone.h"
+#include "engine/solids/beam.h"
 #include "engine/solids/round_triangle.h"
 #include "procedural/foam/plane_strips.h"
 
