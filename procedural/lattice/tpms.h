@@ -42,7 +42,7 @@ struct TpmsSettings {
 /// Makes the solid. It fills space; the region is its bounds, and runs are only made there. If period and
 /// thickness are constant over the region, the runs of one period per line are found and repeated: a
 /// network's to 1e-8 periods, a sheet's to 1.6e-5, as its distances are tabulated in each plane. The metric
-/// is `bound` then; a sheet's features below 1/192 of the period may be missed. Otherwise the metric is
+/// is `bound` then; a sheet's features below 1/224 of the period may be missed. Otherwise the metric is
 /// `sign`, and runs are found by walk_lines, which sees features wider than a quarter pixel. It estimates the
 /// slopes of the gradings from differences over 1/16 of the region, times 1.5 for safety.
 /// Throws InputError for numbers out of range over the region: not positive, more than 10,000 periods along a

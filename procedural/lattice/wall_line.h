@@ -20,7 +20,7 @@ class WallLine {
     /// Returns what TpmsWall::bound() does at an angle in turns along the line.
     double bound(double turns, double half) const;
     /// Finds the turns, ascending and within [-1, 1], in which one period lies in the wall; one infinite
-    /// interval if all of it does. Wall and openings thinner than 1/192 of the period may be missed.
+    /// interval if all of it does. Wall and openings thinner than 1/224 of the period may be missed.
     void find_runs(double half, std::vector<Interval>& out) const;
 
   private:

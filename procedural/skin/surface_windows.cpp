@@ -249,13 +249,12 @@ bool SurfaceWindows::windows_on(dvec3 p, int axis, Interval part, std::uint32_t&
         hint = tree_.nearest(p, hint).point;
         const Cell& cell = cells_[hint];
         const dvec3 place = tree_.points()[hint], q = p - place;
-        const double leaves = std::min(place[axis] + way_to_border(cell, q, axis), part.hi);
-        if (!(leaves > at)) {
-            // Outside the cube that the cell was clipped from all is solid, half a strut deep.
-            const bool is_outside = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) >= reach_;
-            at += is_outside ? min_inset_ : beyond;
+        // Outside the cube that the cell was clipped from, faces are unknown, and all is solid.
+        if (std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) >= reach_) {
+            at += std::max(std::abs(value_near(p, hint)), beyond);
             continue;
         }
+        const double leaves = std::min(place[axis] + way_to_border(cell, q, axis), part.hi);
         if (!cell.closed) {
             Interval open = window_on(cell, q, axis);
             open = {std::max(open.lo + place[axis], at), std::min(open.hi + place[axis], leaves)};
@@ -263,7 +262,7 @@ bool SurfaceWindows::windows_on(dvec3 p, int axis, Interval part, std::uint32_t&
             if (open.lo < open.hi && goes_on) out.back().hi = open.hi;
             if (open.lo < open.hi && !goes_on) out.push_back(open);
         }
-        at = leaves + beyond;
+        at = std::max(leaves, at) + beyond;
     }
     return true;
 }
