@@ -79,8 +79,8 @@ class Field : public std::enable_shared_from_this<Field> {
     /// Compute the results of `value` at many points, and of `range` over many boxes.
     virtual void values(std::span<const dvec3> points, std::span<double> out) const;
     virtual void ranges(std::span<const Box> boxes, std::span<Interval> out) const;
-    /// Returns true if `values` and `ranges` are much faster than one call per item. The default slice uses
-    /// them then.
+    /// Returns true if `values` is much faster than one call per point. The default slice samples tiles by it
+    /// then; its runs always ask for many at once.
     virtual bool takes_many() const { return false; }
     /// Returns the solid dilated (d > 0) or eroded (d < 0) by |d| mm in true 3D distance; null when there is
     /// no closed form.
