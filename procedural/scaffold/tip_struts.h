@@ -1,4 +1,4 @@
-// Struts below tips: from what begins in the air straight down to the part, within its body.
+// Struts below tips: from what begins in the air down to the part or to the bed, within its body.
 #pragma once
 
 #include <optional>
@@ -20,5 +20,13 @@ struct TipStrutOptions {
 /// `tip` lies in the first layer of what begins in the air.
 std::optional<Beam> strut_below(dvec3 tip, const Field& part, const Field& body,
                                 const TipStrutOptions& options);
+
+/// Returns the shortest strut from a tip close above the bed to the bed, within the body: sideways, as flat
+/// as the body itself leaves the bed. Its foot is half as thick, and lies where the body reaches down to the
+/// bed; such places are looked for on a grid of an eighth of the radius. Returns nothing when the tip is
+/// higher above the bed than half the radius, or no such place lies within reach. `first_plane` is the height
+/// of the lowest layer's cutting plane, mm; half a layer lies below it.
+std::optional<Beam> strut_to_bed(dvec3 tip, double first_plane, const Field& body,
+                                 const TipStrutOptions& options);
 
 }  // namespace lamella

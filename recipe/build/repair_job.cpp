@@ -63,7 +63,7 @@ void find_tips(double height, double size, const BuiltJob& built, RepairReport& 
     report.trim = height;
 }
 
-/// Makes struts from the tips that stay down to the part, within the body.
+/// Makes struts from the tips that stay down to the part or to the bed, within the body.
 void hold_tips(const Recipe& recipe, BuiltJob& built, RepairReport& report, double diameter) {
     const FieldPtr body = make_scaled(recipe, built.designed, built.outside);
     TipStrutOptions options;
@@ -71,7 +71,8 @@ void hold_tips(const Recipe& recipe, BuiltJob& built, RepairReport& report, doub
     options.layer_height = built.layers.plan.least_height();
     std::vector<FieldPtr> solids;
     for (const dvec3 tip : report.tips->begins) {
-        const auto strut = strut_below(tip, *built.job.part, *body, options);
+        auto strut = strut_below(tip, *built.job.part, *body, options);
+        if (!strut) strut = strut_to_bed(tip, built.job.plane(0), *body, options);
         if (!strut) continue;
         report.holds.push_back(*strut);
         solids.push_back(make_round_cone(*strut));
@@ -220,8 +221,8 @@ std::string repairs_text(const RepairReport& report) {
     if (report.filled) text += mended_text("gaps       ", *report.filled, "narrower", "filled");
     if (report.trim > 0) text += tips_text(*report.tips, report.trim);
     if (!report.holds.empty()) {
-        text += fmt::format("hold       {} {} from tips that stay down to the part\n", report.holds.size(),
-                            report.holds.size() == 1 ? "strut" : "struts");
+        text += fmt::format("hold       {} {} from tips that stay down to the part or the bed\n",
+                            report.holds.size(), report.holds.size() == 1 ? "strut" : "struts");
     }
     return text;
 }

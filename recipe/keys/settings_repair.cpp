@@ -40,8 +40,9 @@ void add_repair_settings(std::vector<Setting>& table) {
         table, "hold", "--repair-hold",
         {.limits = {-1, lengths.hi},
          .help =
-             "Diameter of struts from the tips that begin in the air and stay down to the part, within the "
-             "body; 0: none; negative: the default, the struts of a self-supporting skin, else 0."});
+             "Diameter of struts from the tips that begin in the air and stay, down to the part or the bed, "
+             "within the body; 0: none; negative: the default, the struts of a self-supporting skin, else "
+             "0."});
 }
 
 }  // namespace lamella

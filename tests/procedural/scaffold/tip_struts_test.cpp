@@ -1,6 +1,8 @@
 // Struts below tips, held against the shortest ways that boxes leave.
 #include "procedural/scaffold/tip_struts.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "engine/solids/csg.h"
@@ -62,6 +64,28 @@ TEST_CASE("solid beside a tip is no solid below it", "[supports]") {
     const auto found = strut(make_box({{0.01, -10, -1}, {10, 10, 3.5}}));
     REQUIRE(found);
     CHECK(found->a.z - found->b.z > 0.05);
+}
+
+TEST_CASE("a tip close above the bed gets a strut to where the body stands on the bed", "[supports]") {
+    const FieldPtr ball = make_sphere({0, 0, 10}, 10);
+    constexpr double first_plane = 0.025;
+    const double footprint = std::sqrt(2 * 10 * first_plane - first_plane * first_plane);
+    const dvec3 foot{1.1, 0, 0.075};  // within the ball, beside its footprint
+    const auto found = strut_to_bed(foot, first_plane, *ball, TipStrutOptions());
+    REQUIRE(found);
+    CHECK(found->a == foot);
+    CHECK(found->b.x == Approx(footprint - 0.1).margin(0.11));
+    CHECK(std::abs(found->b.y) < 1e-9);
+    CHECK(std::abs(found->b.z) < 1e-9);
+    CHECK(found->rb == 0.2);
+    // Far away, the small footprint is found as well.
+    const auto farther = strut_to_bed({-1.9, 1.9, 0.37}, 0.31, *ball, {.radius = 0.2});
+    REQUIRE(farther);
+    CHECK(glm::length(dvec2(farther->b)) <= std::sqrt(2 * 10 * 0.31));
+    // No bed in reach, too high above it, or a body that hangs above it.
+    CHECK(!strut_to_bed(foot, first_plane, *ball, {.radius = 0.4, .reach = 0.2}));
+    CHECK(!strut_to_bed({1.1, 0, 0.23}, first_plane, *ball, TipStrutOptions()));
+    CHECK(!strut_to_bed(foot, first_plane, *make_box({{-5, -5, 0.03}, {5, 5, 5}}), TipStrutOptions()));
 }
 
 }  // namespace tip_struts_test
