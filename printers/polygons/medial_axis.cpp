@@ -1,4 +1,5 @@
-// Extracts the part of the border's Voronoi diagram that lies inside.
+// Traces the axis of pieces without holes, and of others extracts the part of the border's Voronoi diagram
+// that lies inside.
 #include "printers/polygons/medial_axis.h"
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "printers/polygons/bisector_trace.h"
 
 namespace lamella {
 namespace {
@@ -17,6 +20,32 @@ using BorderSegment = boost::polygon::segment_data<Coordinate>;
 using Diagram = boost::polygon::voronoi_diagram<double>;
 
 dvec2 to_vector(const BorderPoint& p) { return {p.x(), p.y()}; }
+
+/// Places in steps of 1 um from the first point of a piece. The steps are coarser than the polygons' own and
+/// the numbers small, because exact arithmetic is faster with fewer digits.
+class AxisGrid {
+  public:
+    explicit AxisGrid(const Polygons& piece) : origin_(piece.front().front()) {}
+
+    BorderPoint point(const ClipperLib::IntPoint& p) const {
+        return {steps(p.X - origin_.X), steps(p.Y - origin_.Y)};
+    }
+    dvec2 to_mm(dvec2 p) const {
+        return (p * units + dvec2(static_cast<double>(origin_.X), static_cast<double>(origin_.Y))) /
+               polygon_scale;
+    }
+    static double to_mm(double steps) { return steps * units / polygon_scale; }
+    static double from_mm(double mm) { return mm * polygon_scale / units; }
+
+  private:
+    static constexpr double units = 100;  // of polygons, in a step
+
+    static Coordinate steps(ClipperLib::cInt of_polygons) {
+        return static_cast<Coordinate>(std::floor(static_cast<double>(of_polygons) / units + 0.5));
+    }
+
+    ClipperLib::IntPoint origin_;
+};
 
 /// The generator of a Voronoi cell: a segment or a corner of the border, in grid steps.
 struct Site {
@@ -33,9 +62,8 @@ struct Site {
 
 class AxisBuilder {
   public:
-    /// Coordinates are relative to the piece's first point, because the diagram is faster with small numbers.
     AxisBuilder(const Polygons& piece, double tolerance)
-        : origin_(piece.front().front()), tolerance_(tolerance * polygon_scale / grid) {
+        : grid_(piece), tolerance_(AxisGrid::from_mm(tolerance)) {
         for (const ClipperLib::Path& ring : piece) add_ring(ring);
     }
 
@@ -53,17 +81,11 @@ class AxisBuilder {
     }
 
   private:
-    /// Polygon units per step of the diagram's grid (1 um). The grid is coarser than that of the polygons,
-    /// because the exact arithmetic is faster with fewer digits.
-    static constexpr double grid = 100;
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     void add_ring(const ClipperLib::Path& ring) {
         const std::size_t n = ring.size(), first = segments_.size();
-        const auto point = [&](std::size_t i) {
-            const ClipperLib::IntPoint& p = ring[i % n];
-            return BorderPoint(on_grid(p.X - origin_.X), on_grid(p.Y - origin_.Y));
-        };
+        const auto point = [&](std::size_t i) { return grid_.point(ring[i % n]); };
         for (std::size_t i = 0; i < n; ++i) {
             if (point(i) != point(i + 1)) segments_.emplace_back(point(i), point(i + 1));
         }
@@ -115,8 +137,8 @@ class AxisBuilder {
                 const dvec2 p = points[i - 1 + end], l = left.nearest(p), r = right.nearest(p);
                 constexpr double slack = 1;  // grid steps
                 if (std::abs(length(p - l) - length(p - r)) > slack) return false;
-                piece.left[end] = to_mm(l);
-                piece.right[end] = to_mm(r);
+                piece.left[end] = grid_.to_mm(l);
+                piece.right[end] = grid_.to_mm(r);
             }
             axis_.edges.push_back(piece);
             from = to;
@@ -139,15 +161,8 @@ class AxisBuilder {
         }
     }
 
-    static Coordinate on_grid(ClipperLib::cInt units) {
-        return static_cast<Coordinate>(std::floor(static_cast<double>(units) / grid + 0.5));
-    }
-    dvec2 to_mm(dvec2 p) const {
-        return (p * grid + dvec2(static_cast<double>(origin_.X), static_cast<double>(origin_.Y))) /
-               polygon_scale;
-    }
     std::uint32_t new_node(dvec2 at, const Site& site) {
-        axis_.nodes.push_back({to_mm(at), length(at - site.nearest(at)) * grid / polygon_scale});
+        axis_.nodes.push_back({grid_.to_mm(at), AxisGrid::to_mm(length(at - site.nearest(at)))});
         return static_cast<std::uint32_t>(axis_.nodes.size() - 1);
     }
     std::uint32_t node_at(const Diagram::vertex_type* vertex, dvec2 at, const Site& site) {
@@ -156,7 +171,7 @@ class AxisBuilder {
         return node;
     }
 
-    ClipperLib::IntPoint origin_;
+    AxisGrid grid_;
     double tolerance_;  // grid steps
     std::vector<BorderSegment> segments_;
     std::vector<bool> turns_right_;  ///< at the first point of each segment
@@ -166,10 +181,34 @@ class AxisBuilder {
     MedialAxis axis_;
 };
 
+std::optional<MedialAxis> traced_axis(const Polygons& piece, double tolerance) {
+    const AxisGrid grid(piece);
+    std::vector<std::vector<dvec2>> rings;
+    for (const ClipperLib::Path& path : piece) {
+        std::vector<dvec2>& ring = rings.emplace_back();
+        for (const ClipperLib::IntPoint& point : path) {
+            const dvec2 p = to_vector(grid.point(point));
+            if (ring.empty() || p != ring.back()) ring.push_back(p);
+        }
+        while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+    }
+    auto axis = trace_medial_axis(rings, AxisGrid::from_mm(tolerance));
+    if (!axis) return axis;
+    for (MedialNode& node : axis->nodes) node = {grid.to_mm(node.at), AxisGrid::to_mm(node.radius)};
+    for (MedialEdge& edge : axis->edges) {
+        for (const std::size_t end : {0U, 1U}) {
+            edge.left[end] = grid.to_mm(edge.left[end]);
+            edge.right[end] = grid.to_mm(edge.right[end]);
+        }
+    }
+    return axis;
+}
+
 }  // namespace
 
 MedialAxis medial_axis(const Polygons& piece, double tolerance) {
     if (piece.empty() || piece.front().empty()) return {};
+    if (auto axis = traced_axis(piece, tolerance)) return *std::move(axis);
     return AxisBuilder(piece, tolerance).build();
 }
 
