@@ -181,7 +181,10 @@ class AxisBuilder {
     MedialAxis axis_;
 };
 
-std::optional<MedialAxis> traced_axis(const Polygons& piece, double tolerance) {
+}  // namespace
+
+std::optional<MedialAxis> traced_medial_axis(const Polygons& piece, double tolerance) {
+    if (piece.empty() || piece.front().empty()) return MedialAxis();
     const AxisGrid grid(piece);
     std::vector<std::vector<dvec2>> rings;
     for (const ClipperLib::Path& path : piece) {
@@ -204,11 +207,8 @@ std::optional<MedialAxis> traced_axis(const Polygons& piece, double tolerance) {
     return axis;
 }
 
-}  // namespace
-
 MedialAxis medial_axis(const Polygons& piece, double tolerance) {
-    if (piece.empty() || piece.front().empty()) return {};
-    if (auto axis = traced_axis(piece, tolerance)) return *std::move(axis);
+    if (auto axis = traced_medial_axis(piece, tolerance)) return *std::move(axis);
     return AxisBuilder(piece, tolerance).build();
 }
 

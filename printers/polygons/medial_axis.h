@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "printers/polygons/polygons.h"
@@ -27,9 +28,13 @@ struct MedialAxis {
     std::vector<MedialEdge> edges;
 };
 
-/// Computes the axis inside one connected piece with its holes from the Voronoi diagram of its border. The
-/// borders must not cross. Curved pieces are approximated to `tolerance` mm. Empty if there is no valid axis,
-/// such as for borders that do cross.
+/// Computes the axis inside one connected piece with its holes: in closed form where that can be, else from
+/// the Voronoi diagram of its border. The borders must not cross. Curved pieces are approximated to
+/// `tolerance` mm. Empty if there is no valid axis, such as for borders that do cross.
 MedialAxis medial_axis(const Polygons& piece, double tolerance);
+
+/// Computes the axis in closed form, which is many times faster. Nothing where that fails, as for pieces of
+/// very many corners.
+std::optional<MedialAxis> traced_medial_axis(const Polygons& piece, double tolerance);
 
 }  // namespace lamella

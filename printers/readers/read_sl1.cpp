@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "printers/readers/job_number.h"
 #include "printers/readers/job_readers.h"
 #include "printers/readers/mask_decoder.h"
@@ -17,13 +18,6 @@ constexpr std::size_t max_config_bytes = std::size_t{1} << 20U,
 constexpr double mm3_per_ml = 1000;
 
 using Description = std::map<std::string, std::string, std::less<>>;
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 Description parse(std::string_view text) {
     Description values;

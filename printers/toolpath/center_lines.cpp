@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/runs/interval_index.h"
+#include "printers/polygons/inscribed_disc.h"
 
 namespace lamella {
 namespace {
@@ -265,9 +266,6 @@ void extend_end(std::size_t index, std::vector<CenterLine>& lines, double by, do
 
 /// Returns true if walls of this thickness around the ribbon make up the piece.
 bool is_even(const Polygons& piece, const Polygons& ribbon, double thickness, double tolerance) {
-    // Radius of the largest disc, in thicknesses: 0.71 where walls cross at right angles.
-    constexpr double widest_joint = 0.8;
-    if (!offset_polygons(piece, -widest_joint * thickness).empty()) return false;
     const double grow = (0.5 - ribbon_share) * thickness + tolerance;
     const Polygons rest = subtract_polygons(piece, offset_polygons(ribbon, grow));
     return std::ranges::all_of(
@@ -294,7 +292,9 @@ double wall_thickness(const Polygons& piece) {
 }
 
 std::vector<CenterLine> center_lines(const Polygons& piece, double thickness, double tolerance) {
-    if (!(thickness > 0)) return {};
+    // Radius of the largest disc, in thicknesses: 0.71 where walls cross at right angles.
+    constexpr double widest_joint = 0.8;
+    if (!(thickness > 0) || InscribedDisc(piece).fits(widest_joint * thickness)) return {};
     const double half_ribbon = ribbon_share * thickness;
     const Polygons border = simplified(offset_polygons(piece, half_ribbon - thickness / 2), half_ribbon / 4);
     if (border.empty() || !is_even(piece, border, thickness, tolerance)) return {};

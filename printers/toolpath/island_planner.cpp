@@ -114,13 +114,17 @@ void IslandPlanner::fill_thick(const Polygons& exact, const Polygons& piece, int
 bool IslandPlanner::lay_walls(const Polygons& exact, const Polygons& piece, int walls_laid) {
     stop_if_cancelled(cancel_);
     const Role role = wall_role(walls_laid);
-    if (fill_even_wall(piece, area_of(exact), role)) return true;
+    const InscribedDisc disc(piece);
+    if (fill_even_wall(piece, disc, area_of(exact), role)) return true;
     // The outermost bead lies entirely inside the contour; inner beads overlap by their round sides.
-    const double spacing = line_.spacing();
-    const Polygons wall = offset_polygons(piece, -(walls_laid == 0 ? line_.width : spacing) / 2);
-    const Polygons inside = wall.empty() ? wall : offset_polygons(wall, -spacing / 2);
+    const double spacing = line_.spacing(), inset = (walls_laid == 0 ? line_.width : spacing) / 2;
+    Polygons wall, inside;
+    if (disc.fits(inset + spacing / 2)) {
+        wall = offset_polygons(piece, -inset);
+        inside = offset_polygons(wall, -spacing / 2);
+    }
     if (inside.empty()) {
-        fill_narrow(exact, !wall.empty(), role);  // exact: a simplified sliver might leave its own outline
+        fill_narrow(exact, disc.fits(inset), role);  // exact: a simplified sliver might leave its own outline
         return true;
     }
     std::vector<Polygons> regions = split_pieces(inside);
@@ -146,15 +150,14 @@ bool IslandPlanner::lay_walls(const Polygons& exact, const Polygons& piece, int 
 }
 
 /// Lays one bead along the middle, or two side by side, if the piece has a suitable uniform thickness.
-bool IslandPlanner::fill_even_wall(const Polygons& piece, double area, Role role) {
+bool IslandPlanner::fill_even_wall(const Polygons& piece, const InscribedDisc& disc, double area, Role role) {
     const double thickness = wall_thickness(piece);
     if (std::vector<Bead> beads = center_line_beads(piece, thickness, area, line_, role); !beads.empty()) {
         add(std::move(beads));
         return true;
     }
     constexpr double unevenness = 1.15;
-    const bool even = offset_polygons(piece, -thickness / 2 * unevenness).empty();
-    if (!even || thickness > 2 * line_.thickest()) return false;
+    if (thickness > 2 * line_.thickest() || disc.fits(thickness / 2 * unevenness)) return false;
     if (thickness <= line_.thickest() && area <= shortest_loop * thickness * thickness) {
         add(chord_bead(piece, area, line_));
         return true;

@@ -1,6 +1,7 @@
 // IslandPlanner: plans the beads of one island of a layer.
 #pragma once
 
+#include "printers/polygons/inscribed_disc.h"
 #include "printers/polygons/polygons.h"
 #include "printers/toolpath/toolpath.h"
 
@@ -19,7 +20,7 @@ class IslandPlanner {
     void fill(const Polygons& exact, const Polygons& piece, int walls_laid);
     void fill_thick(const Polygons& exact, const Polygons& piece, int walls_laid);
     bool lay_walls(const Polygons& exact, const Polygons& piece, int walls_laid);
-    bool fill_even_wall(const Polygons& piece, double area, Role role);
+    bool fill_even_wall(const Polygons& piece, const InscribedDisc& disc, double area, Role role);
     void fill_narrow(const Polygons& piece, bool full_width_fits, Role role);
     void fill_inside(const Polygons& inside);
     void fill_region(const Polygons& region, double density);
