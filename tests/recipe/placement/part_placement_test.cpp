@@ -111,7 +111,7 @@ TEST_CASE("foam, skin, frame, regions, holes and gradings turn with the part", "
     check_same(block, "[foam]\ncell = 3\nbeam = 0.3\nstretch = [1, 1.5, 0.7]\nturn = [0, 30, 0]\n");
     check_same(block, "[foam]\nkind = \"closed\"\ncell = 3\nbeam = 0.3\nwall = 0.2\nwindow = 0.5\n");
     check_same(block,
-               "[foam]\nkind = \"k-nearest\"\ncell = 2.5\nbeam = 0.3\nstretch = [\"1 + 0.1*x\", 1, 2]\n");
+               "[foam]\nkind = \"k-nearest\"\ncell = 2.5\nbeam = 0.3\nstretch = [\"1 + 0.05*x\", 1, 2]\n");
     check_same(block, "[foam]\nkind = \"kelvin\"\ncell = 2.5\nbeam = 0.3\n");
     // The surface's curves are traced anew: they differ by less than a thousandth of a cell where slices see
     // it.
