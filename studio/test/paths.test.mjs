@@ -77,6 +77,31 @@ test("paths that take long are given up for those of another layer", async () =>
     assert.deepEqual(studio.errors, []);
 });
 
+test("the mask of a layer is shown while its paths are on their way", async () => {
+    studio = await open_studio(browser, { recipe });
+    const { page } = studio;
+    const { layer } = await studio.state();
+    let answer;
+    const asked = new Promise((resolve) => {
+        page.route(`**/layers/${layer + 1}/paths*`, (route) => {
+            answer = () => route.continue();
+            resolve();
+        });
+    });
+    await page.getByRole("slider", { name: "Layer", exact: true }).focus();
+    await page.keyboard.press("ArrowUp");
+    await asked;
+    await studio.until((wanted) => window.__studio.state.shown.layer === wanted, layer + 1);
+    const mask = await picture(page);
+    answer();
+    await page.waitForFunction(
+        (before) => document.querySelector(".layer-room canvas").toDataURL() !== before,
+        mask,
+    );
+    assert.equal((await studio.state()).shown.layer, layer + 1);
+    assert.deepEqual(studio.errors, []);
+});
+
 test("the speeds of the legend are those of the G-code", { skip }, async () => {
     program = new Program();
     const path = program.write("part.toml", `${recipe}least_layer_time = 12\nwall_speed = 25\n`);

@@ -14,7 +14,7 @@ import { draw, type Lines } from "./draw";
 import { load_mask, type Picture } from "./mask";
 import { path_look } from "./path_look";
 import { lines, picture } from "./shown_layer";
-import { current, frame, pan, pane, place_of, zoom_about } from "./window";
+import { current, type Frame, frame, pan, pane, place_of, zoom_about } from "./window";
 
 export type LayerMode = "mask" | "contours" | "paths";
 
@@ -45,6 +45,23 @@ async function load_lines(made: Job, k: number, mode: LayerMode, signal: AbortSi
 
 /** A layer that takes longer is given up for another one, ms: toolpaths may take seconds. */
 const patience = 300;
+/** Lines that take longer are preceded by the layer's mask, ms. */
+const soon = 200;
+
+/** Shows the mask of a layer after a while, unless its lines came before. */
+async function show_before(lines_come: Promise<unknown>, made: Job, k: number, shown: Frame, signal: AbortSignal) {
+    let came = false;
+    const end = () => {
+        came = true;
+    };
+    lines_come.then(end, end);
+    await new Promise((resolve) => setTimeout(resolve, soon));
+    if (came || signal.aborted) return;
+    const mask = await load_mask(made, k, shown, signal);
+    if (came || signal.aborted) return mask.bitmap.close();
+    show_picture(mask);
+    lines.value = null;
+}
 
 function watch_layer(): () => void {
     const latest = new Latest(patience);
@@ -61,7 +78,9 @@ function watch_layer(): () => void {
             });
         } else if (lines.peek()?.job !== made.job || lines.peek()?.layer !== k || !lines.peek()?.[mode]) {
             latest.run(async (signal) => {
-                lines.value = await load_lines(made, k, mode, signal);
+                const lines_come = load_lines(made, k, mode, signal);
+                show_before(lines_come, made, k, shown, signal).catch(() => {}); // the lines' fault is told
+                lines.value = await lines_come;
                 show_picture(null);
             });
         }
