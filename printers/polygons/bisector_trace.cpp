@@ -5,15 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
+
+#include "printers/polygons/box_grid.h"
 
 namespace lamella {
 
 namespace {
 
-constexpr double rounding = 1e-4;  // of places on the border
-constexpr std::size_t most_sites = 1000;
+constexpr double rounding = 1e-4;      // of places on the border
+constexpr std::size_t few_sites = 24;  // are tried one by one
+constexpr int tried_neighbours = 3;    // on either side, before others
+constexpr std::size_t most_sites = 100000;
 
 dvec2 left_of(dvec2 v) { return {-v.y, v.x}; }
 
@@ -72,6 +77,17 @@ struct Bisector {
     /// Returns the parameter of a point on the bisector.
     double parameter(dvec2 p) const { return dot(p - p0, p1) / dot(p1, p1); }
 
+    /// Returns a rectangle around the discs between two parameters that touch both sites.
+    Rect reach(double from, double to) const {
+        // A curve of degree two lies in the triangle of its ends and the point where their tangents meet.
+        Rect box;
+        for (const dvec2 p : {at(from), at(to), p0 + 0.5 * (from + to) * p1 + from * to * p2})
+            box = unite(box, Rect{p, p});
+        const double radius =
+            std::max(length(at(from) - right->nearest(at(from))), length(at(to) - right->nearest(at(to)))) +
+            1;
+        return {box.lo - radius, box.hi + radius};
+    }
     /// Returns how much farther a site is than those of the bisector: a difference of distances, or of
     /// squares.
     Quadratic farther(const BorderSite& site) const {
@@ -134,6 +150,12 @@ class AxisTracer {
     AxisTracer(std::span<const std::vector<dvec2>> rings, double tolerance)
         : tolerance_(tolerance), rings_(rings.size()) {
         for (const std::vector<dvec2>& ring : rings) add_sites(ring);
+        if (sites_.size() <= few_sites) return;
+        std::vector<Rect> boxes;
+        boxes.reserve(sites_.size());
+        for (const BorderSite& site : sites_)
+            boxes.push_back({glm::min(site.a, site.b), glm::max(site.a, site.b)});
+        grid_.emplace(boxes);
     }
 
     std::optional<MedialAxis> trace() {
@@ -193,10 +215,12 @@ class AxisTracer {
     double tolerance_;
     std::size_t rings_;
     std::vector<BorderSite> sites_;  ///< ring by ring
+    std::optional<BoxGrid> grid_;    ///< of the sites, if they are many
     std::size_t corners_ = 0;        ///< where the border turns left
     std::size_t ends_ = 0;           ///< of them, where the axis has ended so far
     std::vector<Meeting> meetings_;
-    std::vector<std::pair<std::size_t, std::size_t>> open_;  ///< ways out of meetings
+    std::multimap<std::array<std::size_t, 3>, std::size_t> meetings_of_;  ///< by their sites
+    std::vector<std::pair<std::size_t, std::size_t>> open_;               ///< ways out of meetings
     MedialAxis axis_;
 };
 
@@ -283,12 +307,20 @@ AxisTracer::End AxisTracer::end_of(const Bisector& bisector, const Branch& branc
         turn(-bisector.component(right.b, right.corner ? next.along : right.along), End::Kind::right_turns);
     if (left.corner || last.corner)
         turn(bisector.component(left.a, left.corner ? last.along : left.along), End::Kind::left_turns);
-    if (rings_ == 1) {
-        // The tree divides the border: what a branch meets lies between its sites.
-        for (std::size_t i = right.after; i != branch.left; i = sites_[i].after)
-            meet(bisector, branch, from, i, end);
+    const auto try_site = [&](std::size_t i) { meet(bisector, branch, from, i, end); };
+    if (!grid_) {
+        for (std::size_t i = 0; i < sites_.size(); ++i) try_site(i);
+        return end;
+    }
+    std::size_t on_right = branch.right, on_left = branch.left;
+    for (int i = 0; i < tried_neighbours; ++i) {
+        try_site(on_right = sites_[on_right].after);
+        try_site(on_left = sites_[on_left].before);
+    }
+    if (end.kind == End::Kind::none) {
+        for (std::size_t i = 0; i < sites_.size(); ++i) try_site(i);
     } else {
-        for (std::size_t i = 0; i < sites_.size(); ++i) meet(bisector, branch, from, i, end);
+        grid_->visit(bisector.reach(from, end.s), try_site);
     }
     return end;
 }
@@ -316,14 +348,14 @@ void AxisTracer::meet(const Bisector& bisector, const Branch& branch, double fro
 /// Notes where a branch has met a site. Where it was met by another branch before, both become one edge.
 bool AxisTracer::add_meeting(const Bisector& bisector, std::size_t site, Branch& branch) {
     constexpr double same = 1;
-    const std::array<std::size_t, 3> around{branch.left, site, branch.right};
-    for (Meeting& meeting : meetings_) {
-        if (rings_ == 1) break;
+    std::array<std::size_t, 3> around{branch.left, site, branch.right};
+    std::ranges::rotate(around, std::ranges::min_element(around));
+    const auto met = meetings_of_.equal_range(around);
+    for (auto i = met.first; i != met.second; ++i) {
+        Meeting& meeting = meetings_[i->second];
         if (length(meeting.at - branch.at) > same) continue;
         const auto way =
             static_cast<std::size_t>(std::ranges::find(meeting.sites, branch.right) - meeting.sites.begin());
-        if (way == 3 || meeting.sites[(way + 1) % 3] != branch.left || meeting.sites[(way + 2) % 3] != site)
-            continue;
         if (std::exchange(meeting.followed[way], true)) return false;
         if (branch.node != meeting.node)
             axis_.edges.push_back(
@@ -332,9 +364,11 @@ bool AxisTracer::add_meeting(const Bisector& bisector, std::size_t site, Branch&
                  {bisector.right->nearest(branch.at), bisector.right->nearest(meeting.at)}});
         return true;
     }
-    meetings_.push_back({around, branch.node, branch.at, {false, false, true}});
-    open_.emplace_back(meetings_.size() - 1, 0);
-    open_.emplace_back(meetings_.size() - 1, 1);
+    meetings_of_.emplace(around, meetings_.size());
+    const auto arrived = static_cast<std::size_t>(std::ranges::find(around, branch.right) - around.begin());
+    meetings_.push_back({around, branch.node, branch.at, {}});
+    meetings_.back().followed[arrived] = true;
+    for (const std::size_t way : {1U, 2U}) open_.emplace_back(meetings_.size() - 1, (arrived + way) % 3);
     return meetings_.size() <= 2 * sites_.size();
 }
 
