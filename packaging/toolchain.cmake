@@ -19,6 +19,7 @@ set(CMAKE_INSTALL_LIBDIR lib/${lamella_triplet} CACHE PATH "Where Debian keeps l
 set(CMAKE_C_COMPILER ${lamella_triplet}-gcc)
 set(CMAKE_CXX_COMPILER ${lamella_triplet}-g++)
 set(CMAKE_SYSROOT ${LAMELLA_SYSROOT})
+set(CMAKE_CXX_FLAGS_INIT -Wno-psabi)  # GCC notes that old versions passed some arguments otherwise
 set(CMAKE_CROSSCOMPILING_EMULATOR ${lamella_emulator_${LAMELLA_ARCH}};-L;${CMAKE_SYSROOT})
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -39,7 +39,7 @@ std::optional<KlipperMessage> parse_klipper_message(std::string_view text) {
 
 std::string without_controls(std::string_view text) {
     std::string plain(text);
-    const auto is_control = [](char c) { return ('\0' <= c && c < ' ') || c == '\x7f'; };
+    const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
     std::replace_if(plain.begin(), plain.end(), is_control, ' ');
     while (!plain.empty() && plain.back() == ' ') plain.pop_back();
     return plain;
