@@ -2,7 +2,11 @@
 #include "printers/toolpath/thin_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
 
 #include "printers/toolpath/thin_graph.h"
 
@@ -195,6 +199,52 @@ class LineTracer {
     double thinnest_, tolerance_;  // mm
 };
 
+/// Returns a share whose contact points lie `beyond` mm outside of the border, so that its sides do not run
+/// along it.
+ClipperLib::Path beyond_border(std::array<dvec2, 6> share, double beyond) {
+    const auto push = [&](dvec2& contact, dvec2 centre) {
+        const dvec2 out = contact - centre;
+        if (const double l = length(out); l > 0) contact += out * (beyond / l);
+    };
+    push(share[0], share[5]);
+    push(share[4], share[5]);
+    push(share[1], share[2]);
+    push(share[3], share[2]);
+    return to_polygon({share.begin(), share.end()});
+}
+
+/// Joins polygons along the sides that two of them have in common. The sides that are left make rings.
+Polygons joined_along_sides(const Polygons& polygons) {
+    using Point = std::pair<ClipperLib::cInt, ClipperLib::cInt>;
+    std::map<std::pair<Point, Point>, int> sides;
+    for (const ClipperLib::Path& polygon : polygons) {
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const ClipperLib::IntPoint &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+            const Point a(p.X, p.Y), b(q.X, q.Y);
+            if (a == b) continue;
+            if (const auto back = sides.find({b, a}); back == sides.end()) {
+                ++sides[{a, b}];
+            } else if (--back->second == 0) {
+                sides.erase(back);
+            }
+        }
+    }
+    Polygons rings;
+    while (!sides.empty()) {
+        const Point start = sides.begin()->first.first;
+        ClipperLib::Path ring;
+        Point at = start;
+        do {
+            ring.emplace_back(at.first, at.second);
+            const auto side = sides.lower_bound({at, {std::numeric_limits<ClipperLib::cInt>::min(), 0}});
+            at = side->first.second;
+            if (--side->second == 0) sides.erase(side);
+        } while (at != start);
+        rings.push_back(std::move(ring));
+    }
+    return rings;
+}
+
 }  // namespace
 
 double area_of(const TaperedLine& line) {
@@ -219,11 +269,12 @@ ThinParts find_thin_parts(const MedialAxis& axis, double thinnest, double thicke
     }
     if (!(parts.area > 0)) return {{}, 0, false, {}};
     parts.lines = LineTracer(graph, thinnest, tolerance).trace();
-    for (std::size_t e = 0; e < graph.edges() && !parts.whole; ++e) {
-        if (graph.kind(e) == EndKind::rest) continue;
-        const auto points = graph.share(e);
-        parts.covered.push_back(to_polygon({points.begin(), points.end()}));
+    if (parts.whole) return parts;
+    Polygons shares;
+    for (std::size_t e = 0; e < graph.edges(); ++e) {
+        if (graph.kind(e) != EndKind::rest) shares.push_back(beyond_border(graph.share(e), 2 * tolerance));
     }
+    parts.covered = joined_along_sides(shares);
     return parts;
 }
 

@@ -19,7 +19,7 @@ struct ThinParts {
     std::vector<TaperedLine> lines;
     double area = 0;    ///< area of the thin parts, mm^2
     bool whole = true;  ///< the thin parts are the whole island
-    Polygons covered;   ///< the thin parts, unless they are the whole island
+    Polygons covered;   ///< the thin parts and a little beyond the border, unless they are the whole island
 };
 
 /// Finds the parts of an island whose thickness is at most `thickest` mm and varies slowly along them, and
