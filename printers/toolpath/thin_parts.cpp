@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
+#include <tuple>
 #include <utility>
 
 #include "printers/toolpath/thin_graph.h"
@@ -216,30 +217,52 @@ ClipperLib::Path beyond_border(std::array<dvec2, 6> share, double beyond) {
 /// Joins polygons along the sides that two of them have in common. The sides that are left make rings.
 Polygons joined_along_sides(const Polygons& polygons) {
     using Point = std::pair<ClipperLib::cInt, ClipperLib::cInt>;
-    std::map<std::pair<Point, Point>, int> sides;
+    struct Side {
+        Point from, to;
+        bool operator<(const Side& other) const {
+            return std::tie(from, to) < std::tie(other.from, other.to);
+        }
+    };
+    // Sides in both directions are neighbours in an order that knows no direction.
+    std::vector<Side> all;
     for (const ClipperLib::Path& polygon : polygons) {
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const ClipperLib::IntPoint &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-            const Point a(p.X, p.Y), b(q.X, q.Y);
-            if (a == b) continue;
-            if (const auto back = sides.find({b, a}); back == sides.end()) {
-                ++sides[{a, b}];
-            } else if (--back->second == 0) {
-                sides.erase(back);
-            }
+            if (p != q) all.push_back({{p.X, p.Y}, {q.X, q.Y}});
         }
     }
+    const auto undirected = [](const Side& side) { return std::minmax(side.from, side.to); };
+    std::ranges::sort(all, [&](const Side& a, const Side& b) {
+        return std::pair(undirected(a), a.from) < std::pair(undirected(b), b.from);
+    });
+    std::vector<Side> sides;
+    for (const Side& side : all) {
+        if (!sides.empty() && sides.back().from == side.to && sides.back().to == side.from) {
+            sides.pop_back();
+        } else {
+            sides.push_back(side);
+        }
+    }
+    std::ranges::sort(sides, std::less<>());
+    std::vector<bool> used(sides.size());
+    // Returns the first unused side from a point; where rings touch there are several.
+    const auto side_from = [&](const Point& point) {
+        auto i =
+            static_cast<std::size_t>(std::ranges::lower_bound(sides, point, {}, &Side::from) - sides.begin());
+        while (used[i]) ++i;
+        return i;
+    };
     Polygons rings;
-    while (!sides.empty()) {
-        const Point start = sides.begin()->first.first;
+    for (std::size_t first = 0; first < sides.size(); ++first) {
+        if (used[first]) continue;
         ClipperLib::Path ring;
-        Point at = start;
-        do {
-            ring.emplace_back(at.first, at.second);
-            const auto side = sides.lower_bound({at, {std::numeric_limits<ClipperLib::cInt>::min(), 0}});
-            at = side->first.second;
-            if (--side->second == 0) sides.erase(side);
-        } while (at != start);
+        std::size_t i = first;
+        for (;;) {
+            used[i] = true;
+            ring.emplace_back(sides[i].from.first, sides[i].from.second);
+            if (sides[i].to == sides[first].from) break;
+            i = side_from(sides[i].to);
+        }
         rings.push_back(std::move(ring));
     }
     return rings;
