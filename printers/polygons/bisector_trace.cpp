@@ -349,7 +349,7 @@ void AxisTracer::meet(const Bisector& bisector, const Branch& branch, double fro
 bool AxisTracer::add_meeting(const Bisector& bisector, std::size_t site, Branch& branch) {
     constexpr double same = 1;
     std::array<std::size_t, 3> around{branch.left, site, branch.right};
-    std::ranges::rotate(around, std::ranges::min_element(around));
+    std::rotate(around.begin(), std::ranges::min_element(around), around.end());
     const auto met = meetings_of_.equal_range(around);
     for (auto i = met.first; i != met.second; ++i) {
         Meeting& meeting = meetings_[i->second];

@@ -21,7 +21,7 @@ BoxGrid::BoxGrid(std::span<const Rect> boxes) {
     const auto for_cells = [&](const Rect& box, const auto& act) {
         const Cells cells = cells_of(box);
         for (int y = cells.y0; y <= cells.y1; ++y) {
-            for (int x = cells.x0; x <= cells.x1; ++x) act(static_cast<std::size_t>(y * columns_ + x));
+            for (int x = cells.x0; x <= cells.x1; ++x) act(cell_at(x, y));
         }
     };
     for (const Rect& box : boxes) for_cells(box, [&](std::size_t cell) { ++first_[cell + 1]; });

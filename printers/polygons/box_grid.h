@@ -22,7 +22,7 @@ class BoxGrid {
         const Cells cells = cells_of(rect);
         for (int y = cells.y0; y <= cells.y1; ++y) {
             for (int x = cells.x0; x <= cells.x1; ++x) {
-                const auto cell = static_cast<std::size_t>(y * columns_ + x);
+                const std::size_t cell = cell_at(x, y);
                 for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i)
                     visit(std::size_t{numbers_[i]});
             }
@@ -34,6 +34,9 @@ class BoxGrid {
         int x0, y0, x1, y1;
     };
 
+    std::size_t cell_at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+    }
     Cells cells_of(const Rect& rect) const {
         const auto along = [](double v, double from, double per_mm, int count) {
             return static_cast<int>(std::clamp((v - from) * per_mm, 0.0, count - 1.0));
