@@ -1,5 +1,4 @@
-// Bisectors are polynomials of a parameter, along which the differences of squared or plain distances to
-// sites are quadratic at most.
+// Follows bisectors from meeting to meeting.
 #include "printers/polygons/bisector_trace.h"
 
 #include <algorithm>
@@ -9,141 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "printers/polygons/bisector.h"
 #include "printers/polygons/box_grid.h"
 
 namespace lamella {
 
 namespace {
 
-constexpr double rounding = 1e-4;      // of places on the border
 constexpr std::size_t few_sites = 24;  // are tried one by one
 constexpr int tried_neighbours = 3;    // on either side, before others
 constexpr std::size_t most_sites = 100000;
-
-dvec2 left_of(dvec2 v) { return {-v.y, v.x}; }
-
-/// A segment of the border; or a corner where it turns right, which has no length.
-struct BorderSite {
-    dvec2 a{0}, b{0};
-    dvec2 along{0};  ///< unit vector from a to b
-    bool corner = false;
-    std::size_t before = 0, after = 0;  ///< its neighbours on the ring
-
-    dvec2 nearest(dvec2 p) const {
-        if (corner) return a;
-        return a + along * std::clamp(dot(p - a, along), 0.0, length(b - a));
-    }
-    /// Returns the signed distance of a point to the segment's line.
-    double height(dvec2 p) const { return dot(p - a, left_of(along)); }
-};
-
-/// c0 + c1 s + c2 s^2
-struct Quadratic {
-    double c0 = 0, c1 = 0, c2 = 0;
-
-    double at(double s) const { return c0 + s * (c1 + s * c2); }
-    Quadratic operator-() const { return {-c0, -c1, -c2}; }
-
-    /// Returns the first place from s on where the values are not positive; infinity where they stay so, or
-    /// where they are not at s, but rise.
-    double first_end(double s) const {
-        const double value = at(s), slope = c1 + 2 * c2 * s;
-        if (value <= 0) return slope < 0 || (slope == 0 && c2 < 0) ? s : infinity;
-        const double root = slope * slope - 4 * c2 * value;
-        if (root < 0) return infinity;
-        if (slope < 0) return s + 2 * value / (-slope + std::sqrt(root));
-        return c2 < 0 ? s + (slope + std::sqrt(root)) / (-2 * c2) : infinity;
-    }
-};
-
-/// The points as far from one site, on the left, as from another one, on the right, in the order in which the
-/// nearest points move on along the border on the right, and back on the left.
-struct Bisector {
-    const BorderSite *left = nullptr, *right = nullptr;
-    dvec2 p0{0}, p1{0}, p2{0};  ///< p0 + p1 s + p2 s^2
-    double r0 = 0, r1 = 0;      ///< of two segments: distance r0 + r1 s
-    double half = 0;            ///< of two corners: distance sqrt(half^2 + s^2)
-    double height = 0;          ///< of a corner over a segment
-
-    bool of_segments() const { return !left->corner && !right->corner; }
-    bool of_corners() const { return left->corner && right->corner; }
-    const BorderSite& segment() const { return right->corner ? *left : *right; }
-    const BorderSite& corner() const { return right->corner ? *right : *left; }
-
-    dvec2 at(double s) const { return p0 + s * (p1 + s * p2); }
-    /// Returns the dot product of the points less `from` with a vector.
-    Quadratic component(dvec2 from, dvec2 v) const { return {dot(p0 - from, v), dot(p1, v), dot(p2, v)}; }
-
-    /// Returns the parameter of a point on the bisector.
-    double parameter(dvec2 p) const { return dot(p - p0, p1) / dot(p1, p1); }
-
-    /// Returns a rectangle around the discs between two parameters that touch both sites.
-    Rect reach(double from, double to) const {
-        // A curve of degree two lies in the triangle of its ends and the point where their tangents meet.
-        Rect box;
-        for (const dvec2 p : {at(from), at(to), p0 + 0.5 * (from + to) * p1 + from * to * p2})
-            box = unite(box, Rect{p, p});
-        const double radius =
-            std::max(length(at(from) - right->nearest(at(from))), length(at(to) - right->nearest(at(to)))) +
-            1;
-        return {box.lo - radius, box.hi + radius};
-    }
-    /// Returns how much farther a site is than those of the bisector: a difference of distances, or of
-    /// squares.
-    Quadratic farther(const BorderSite& site) const {
-        if (site.corner && !of_segments()) {
-            const dvec2 apart = site.a - corner().a;
-            Quadratic result = component(corner().a, -2.0 * apart);
-            result.c0 += dot(apart, apart);
-            return result;
-        }
-        if (site.corner) {
-            const dvec2 from = p0 - site.a;
-            return {dot(from, from) - r0 * r0, 2 * (dot(from, p1) - r0 * r1), 1 - r1 * r1};
-        }
-        if (!of_corners()) {
-            const Quadratic to = component(site.a, left_of(site.along)),
-                            own = component(segment().a, left_of(segment().along));
-            return {to.c0 - own.c0, to.c1 - own.c1, to.c2 - own.c2};
-        }
-        const Quadratic to = component(site.a, left_of(site.along));
-        return {to.c0 * to.c0 - half * half, 2 * to.c0 * to.c1, to.c1 * to.c1 - 1};
-    }
-};
-
-/// Returns the bisector of two sites through a point; nothing if they have none.
-std::optional<Bisector> bisector_of(const BorderSite& left, const BorderSite& right, dvec2 through) {
-    Bisector result{.left = &left, .right = &right};
-    if (result.of_segments()) {
-        const dvec2 way = right.along - left.along;
-        const double size = length(way);
-        constexpr double straight = 1e-9;
-        if (!(size > straight)) return {};
-        result.p0 = through;
-        result.p1 = way / size;
-        result.r0 = right.height(through);
-        result.r1 = dot(result.p1, left_of(right.along));
-        return result;
-    }
-    if (result.of_corners()) {
-        const dvec2 apart = right.a - left.a;
-        const double size = length(apart);
-        if (!(size > rounding)) return {};
-        result.p0 = 0.5 * (left.a + right.a);
-        result.p1 = left_of(apart) / size;
-        result.half = 0.5 * size;
-        return result;
-    }
-    // A parabola: with x along the segment, y = (x^2 + height^2) / (2 height).
-    const BorderSite &segment = result.segment(), &corner = result.corner();
-    const dvec2 up = left_of(segment.along);
-    result.height = segment.height(corner.a);
-    if (!(result.height > rounding)) return {};
-    result.p0 = corner.a - 0.5 * result.height * up;
-    result.p1 = right.corner ? -segment.along : segment.along;
-    result.p2 = up / (2 * result.height);
-    return result;
-}
 
 class AxisTracer {
   public:
@@ -339,7 +213,8 @@ void AxisTracer::meet(const Bisector& bisector, const Branch& branch, double fro
     if (!site.corner) {
         const dvec2 p = bisector.at(s);
         const double along = dot(p - site.a, site.along);
-        if (along < -rounding || along > length(site.b - site.a) + rounding || site.height(p) < -rounding)
+        if (along < -border_rounding || along > length(site.b - site.a) + border_rounding ||
+            site.height(p) < -border_rounding)
             return;
     }
     end = {s, End::Kind::meets, number};
@@ -399,7 +274,7 @@ bool AxisTracer::add_piece(const Bisector& bisector, double from, double to, Bra
 /// from the site on the left as from that on the right.
 bool AxisTracer::add_edge(const Bisector& bisector, dvec2 to, double radius, Branch& branch) {
     const dvec2 from = branch.at;
-    if (length(to - from) < 10 * rounding) return true;
+    if (length(to - from) < 10 * border_rounding) return true;
     const std::uint32_t node = new_node(to, radius);
     const BorderSite &left = *bisector.left, &right = *bisector.right;
     constexpr double slack = 0.1;

@@ -38,13 +38,12 @@ class BoxGrid {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
     }
     Cells cells_of(const Rect& rect) const {
-        const auto along = [](double v, double from, double per_mm, int count) {
-            return static_cast<int>(std::clamp((v - from) * per_mm, 0.0, count - 1.0));
+        const auto along = [this](double v, double from, int count) {
+            const double cells = (v - from) * cells_per_mm_;
+            return cells > 0 ? static_cast<int>(std::min(cells, count - 1.0)) : 0;
         };
-        return {along(rect.lo.x, origin_.x, cells_per_mm_, columns_),
-                along(rect.lo.y, origin_.y, cells_per_mm_, rows_),
-                along(rect.hi.x, origin_.x, cells_per_mm_, columns_),
-                along(rect.hi.y, origin_.y, cells_per_mm_, rows_)};
+        return {along(rect.lo.x, origin_.x, columns_), along(rect.lo.y, origin_.y, rows_),
+                along(rect.hi.x, origin_.x, columns_), along(rect.hi.y, origin_.y, rows_)};
     }
 
     dvec2 origin_{0};
