@@ -22,8 +22,6 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)")
         "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm")
     target_compile_definitions(PkgConfig::hwy INTERFACE "HWY_DISABLED_TARGETS=HWY_NEON")
-    # What takes its place uses isnan as <math.h> declares it.
-    target_compile_options(PkgConfig::hwy INTERFACE "SHELL:-include math.h")
 endif()
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET GLOBAL libzip)
 add_library(libzip::zip ALIAS PkgConfig::libzip)

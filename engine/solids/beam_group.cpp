@@ -2,6 +2,10 @@
 // operations on doubles in the same order, so that every target gives the same bits.
 #include "engine/solids/beam_group.h"
 
+#include <cmath>
+
+using std::isnan;  // of libhwy where there are no vectors, which expects that of <math.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/solids/beam_group.cpp"
 #include <hwy/foreach_target.h>
