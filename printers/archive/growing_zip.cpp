@@ -17,7 +17,8 @@ std::string GrowingZip::begin_entry(ZipEntry entry) {
         throw FaultError(entry.name + " is 4 GiB or more, too much for an archive");
     entry.offset = size_;
     std::string bytes;
-    const std::size_t whole = zip_local_header_size + entry.name.size() + entry.packed;
+    const std::size_t whole =
+        zip_local_header_size + entry.name.size() + static_cast<std::size_t>(entry.packed);
     bytes.reserve(whole);
     put_local_header(bytes, entry, method_);
     size_ += whole;

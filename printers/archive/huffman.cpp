@@ -29,7 +29,7 @@ void minimum_redundancy(std::span<std::uint64_t> a) {
         a[next] = first + smallest(next);
     }
     a[n - 2] = 0;
-    for (std::size_t i = n - 2; i-- > 0;) a[i] = a[a[i]] + 1;
+    for (std::size_t i = n - 2; i-- > 0;) a[i] = a[static_cast<std::size_t>(a[i])] + 1;
 
     std::size_t available = 1;
     std::uint64_t depth = 0;
@@ -89,7 +89,8 @@ void huffman_lengths(std::span<const std::uint32_t> frequencies, int limit, std:
     minimum_redundancy({work.data(), used});
 
     std::array<int, max_depth + 1> count{};
-    for (std::size_t i = 0; i < used; ++i) ++count[std::min<std::size_t>(work[i], max_depth)];
+    for (std::size_t i = 0; i < used; ++i)
+        ++count[static_cast<std::size_t>(std::min<std::uint64_t>(work[i], max_depth))];
     enforce_limit(count, limit);
     std::size_t i = 0;  // the rarest symbols get the longest codes
     for (int depth = limit; depth > 0; --depth) {

@@ -118,7 +118,7 @@ void ShardFile::read_stamp() {
 
 std::string ShardFile::layer(int index) const {
     const Place& place = places_.at(static_cast<std::size_t>(index - stamp_.range.first));
-    std::string bytes(place.size, '\0');
+    std::string bytes(static_cast<std::size_t>(place.size), '\0');
     {
         const std::lock_guard lock(reading_);
         file_.seekg(static_cast<std::streamoff>(place.at));

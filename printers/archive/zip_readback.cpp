@@ -34,7 +34,7 @@ std::vector<ZipEntry> read_back_entries(const std::filesystem::path& path, std::
         entry.crc = static_cast<std::uint32_t>(little(&header[14], 4));
         entry.packed = little(&header[18], 4);
         entry.size = little(&header[22], 4);
-        entry.name.resize(little(&header[26], 2));
+        entry.name.resize(static_cast<std::size_t>(little(&header[26], 2)));
         if (entry.name.empty() || entry.name.size() > longest_zip_name || little(&header[28], 2) != 0)
             refuse();
         if (!in.read(entry.name.data(), static_cast<std::streamsize>(entry.name.size()))) refuse();

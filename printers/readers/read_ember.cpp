@@ -149,7 +149,8 @@ class EmberFile : public JobFile {
         std::string content;
         while (content.size() < size) {
             const std::size_t used = content.size();
-            const std::size_t step = std::min<std::size_t>(size - used, std::size_t{1} << 20U);
+            const auto step =
+                static_cast<std::size_t>(std::min<std::uint64_t>(size - used, std::uint64_t{1} << 20U));
             content.resize(used + step);
             in.read(content.data() + used, step);
         }

@@ -99,7 +99,7 @@ class GooDecoder {
             length = high << 4U | (head & 0xfU);
         }
         if (length > pixels_ - out.size()) throw InputError("a run of its code goes beyond the image");
-        out.insert(out.end(), length, static_cast<std::uint8_t>(value_));
+        out.insert(out.end(), static_cast<std::size_t>(length), static_cast<std::uint8_t>(value_));
     }
 
     std::string_view code_;

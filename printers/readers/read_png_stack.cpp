@@ -47,7 +47,7 @@ std::string read_bounded(const fs::path& path, std::uintmax_t most, const std::s
     if (error) throw InputError(where + ": cannot be read (" + error.message() + ")");
     if (size > most)
         throw InputError(fmt::format("{}: {} bytes are more than any such file has", where, size));
-    std::string bytes(size, '\0');
+    std::string bytes(static_cast<std::size_t>(size), '\0');
     std::ifstream in(path, std::ios::binary);
     if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
         throw InputError(where + ": cannot be read");

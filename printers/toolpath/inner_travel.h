@@ -9,9 +9,9 @@
 
 namespace lamella {
 
-/// Finds travel paths for any number of travels in an island. They keep about half a line width from the outline,
-/// so that they cross no outer wall; a tenth where the island is too thin for that, such as in the struts of
-/// foams.
+/// Finds travel paths for any number of travels in an island. They keep about half a line width from the
+/// outline, so that they cross no outer wall; a tenth where the island is too thin for that, such as in the
+/// struts of foams.
 class InnerTravel {
   public:
     /// `outline` is one of Toolpaths::outlines; `line_width` in mm.
