@@ -35,13 +35,13 @@ bool same_word(std::string_view token, std::string_view lower) {
     return std::ranges::equal(token, lower, {}, lower_letter);
 }
 
-std::string grouped(std::size_t n) {
+std::string grouped(std::uint64_t n) {
     std::string digits = std::to_string(n);
     for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, 1, ',');
     return digits;
 }
 
-std::string counted(std::size_t n, std::string_view noun) {
+std::string counted(std::uint64_t n, std::string_view noun) {
     return grouped(n) + " " + std::string(noun) + (n == 1 ? "" : "s");
 }
 

@@ -24,9 +24,9 @@ std::string lower_case(std::string_view text);
 /// Returns true if the token is the word, whatever its letters' case; `lower` is in lower case.
 bool same_word(std::string_view token, std::string_view lower);
 
-std::string grouped(std::size_t n);  ///< "1,360"
+std::string grouped(std::uint64_t n);  ///< "1,360"
 /// Returns a count with its noun: "1 triangle", "1,360 triangles".
-std::string counted(std::size_t n, std::string_view noun);
+std::string counted(std::uint64_t n, std::string_view noun);
 
 /// Returns a quoted excerpt of a file for a message: shortened, with unprintable bytes replaced.
 std::string excerpt(std::string_view text);

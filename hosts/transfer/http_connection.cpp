@@ -53,8 +53,9 @@ std::size_t take_body(char* out, std::size_t size, std::size_t count, void* user
             taken = transfer.request.upload->take(room);
         } else {
             const std::string& content = transfer.request.content;
-            const std::size_t rest = std::min<std::size_t>(room.size(), content.size() - transfer.sent);
-            content.copy(room.data(), rest, transfer.sent);
+            const auto sent = static_cast<std::size_t>(transfer.sent);
+            const std::size_t rest = std::min(room.size(), content.size() - sent);
+            content.copy(room.data(), rest, sent);
             taken = rest;
             if (rest == 0) taken.reset();
         }

@@ -1,6 +1,7 @@
 // Windows and holes of a skin, from the recipe's [skin] and [[hole]]. fill_body.h makes the skin itself.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -17,18 +18,18 @@ namespace lamella {
 /// What came of a skin's pattern.
 struct PatternReport {
     std::string pattern;
-    std::size_t windows = 0;     ///< cells of the pattern; 0 for a picture
-    std::size_t closed = 0;      ///< cells too small for a window
-    std::size_t islands = 0;     ///< solid parts of a picture that hang on nothing and were left out
-    double open_share = 0;       ///< of a picture, or a pattern by example, that is window
-    double picture_share = 0;    ///< by example: of the picture that is window
-    std::size_t pieces = 0;      ///< by example: before bridges joined them
-    std::size_t joins = 0;       ///< by example: bridges between pieces
-    std::size_t bridges = 0;     ///< by example: bridges that make it sounder
-    std::size_t cut_struts = 0;  ///< by example: left, as in BridgePlan
-    std::size_t hanging = 0;     ///< by example: places left that begin in the air, if it supports itself
-    std::size_t detours = 0;
-    std::size_t dropped = 0;     ///< by example: pieces too small to keep
+    std::size_t windows = 0;       ///< cells of the pattern; 0 for a picture
+    std::size_t closed = 0;        ///< cells too small for a window
+    std::size_t islands = 0;       ///< solid parts of a picture that hang on nothing and were left out
+    double open_share = 0;         ///< of a picture, or a pattern by example, that is window
+    double picture_share = 0;      ///< by example: of the picture that is window
+    std::uint64_t pieces = 0;      ///< by example: before bridges joined them
+    std::uint64_t joins = 0;       ///< by example: bridges between pieces
+    std::uint64_t bridges = 0;     ///< by example: bridges that make it sounder
+    std::uint64_t cut_struts = 0;  ///< by example: left, as in BridgePlan
+    std::uint64_t hanging = 0;     ///< by example: places left that begin in the air, if it supports itself
+    std::uint64_t detours = 0;
+    std::uint64_t dropped = 0;   ///< by example: pieces too small to keep
     double softness_before = 0;  ///< by example: as in SurfaceBricks
     double softness = 0;
     std::optional<ElementPlan> elements{};  ///< of a skin of elements

@@ -54,7 +54,7 @@ struct Reader {
     void operator()(std::vector<T>& list) {
         const std::uint64_t count = take_count(sizeof(T));
         if (fails) return;
-        list.resize(count);
+        list.resize(static_cast<std::size_t>(count));
         take(list.data(), count * sizeof(T));
     }
     template <typename T>
