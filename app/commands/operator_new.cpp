@@ -6,8 +6,8 @@
 
 namespace {
 
-// Address space only; a process has 2^47 bytes of it.
-constexpr std::size_t room = std::size_t{1} << 40;
+// Address space only; a process has 2^47 bytes of it, or 2^32.
+constexpr std::size_t room = std::size_t{1} << (sizeof(std::size_t) == 8 ? 40 : 29);
 
 // Never destroyed: blocks are freed until the process ends.
 lamella::LargeBlocks& large_blocks() {

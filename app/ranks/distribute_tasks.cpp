@@ -56,7 +56,7 @@ void DistributedTasks::collect() {
             Result result = unpacked<Result>(std::move(*bytes));
             if (result.task >= results_.size())
                 throw FaultError("a rank has sent the result of an unknown task");
-            results_[result.task] = std::move(result.bytes);
+            results_[static_cast<std::size_t>(result.task)] = std::move(result.bytes);
         }
     }
 }
@@ -88,7 +88,7 @@ void help_with_tasks(Ranks& ranks, const std::string& identity, const DoTask& ta
             throw InputError(
                 "its work differs from that of rank 0; accepted: the same recipe and files for all ranks");
         if (order.task == order.count) return;
-        ranks.send(0, result_tag, packed(Result{order.task, task(order.task)}));
+        ranks.send(0, result_tag, packed(Result{order.task, task(static_cast<std::size_t>(order.task))}));
     }
 }
 
