@@ -6,8 +6,9 @@
 
 namespace {
 
-// Address space only; a process has 2^47 bytes of it, or 2^32.
-constexpr std::size_t room = std::size_t{1} << (sizeof(std::size_t) == 8 ? 40 : 29);
+// Address space only, of 2^47 bytes or 2^32 that a process has. What does not fit comes from the heap.
+// Emulators of processors keep a table of it: for 64 GiB it takes 400 MB.
+constexpr std::size_t room = std::size_t{1} << (sizeof(std::size_t) == 8 ? 36 : 29);
 
 // Never destroyed: blocks are freed until the process ends.
 lamella::LargeBlocks& large_blocks() {
