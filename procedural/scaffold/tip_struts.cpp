@@ -13,6 +13,7 @@ namespace {
 
 constexpr int tilts = 4, turns = 16;
 constexpr double steps_in_a_radius = 8;
+constexpr double farthest_foot = 12;  // from its tip, in radii
 
 /// Returns how far the part is from the tip in a direction, up to `reach`; nothing where the way leaves the
 /// body or ends in too little solid.
@@ -96,7 +97,7 @@ std::optional<Beam> strut_to_bed(dvec3 tip, double first_plane, const Field& bod
     if (tip.z - first_plane > 0.5 * options.radius) return {};
     const double bed = first_plane - 0.5 * options.layer_height;
     const double step = options.radius / steps_in_a_radius;
-    for (const dvec2 aside : grid_around(step, options.reach)) {
+    for (const dvec2 aside : grid_around(step, std::min(options.reach, farthest_foot * options.radius))) {
         const dvec2 foot = dvec2(tip) + aside;
         if (stands_on_bed(foot, first_plane, body, options.radius) &&
             stays_in(body, tip, dvec3(foot, tip.z), step))
