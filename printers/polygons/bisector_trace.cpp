@@ -1,4 +1,4 @@
-// Follows bisectors from meeting to meeting.
+// Follows each bisector of two sites to the point where it meets a third one, from which two others go on.
 #include "printers/polygons/bisector_trace.h"
 
 #include <algorithm>

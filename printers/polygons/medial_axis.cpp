@@ -1,5 +1,4 @@
-// Traces the axis of pieces without holes, and of others extracts the part of the border's Voronoi diagram
-// that lies inside.
+// Traces the axis, and where that fails extracts the part of the border's Voronoi diagram that lies inside.
 #include "printers/polygons/medial_axis.h"
 
 #include <algorithm>

@@ -55,7 +55,7 @@ double IslandPlanner::volume_from(std::size_t first) const {
 /// Fills a piece inside `walls_laid` walls; `exact` is the piece before simplification.
 void IslandPlanner::fill(const Polygons& exact, const Polygons& piece, int walls_laid) {
     stop_if_cancelled(cancel_);
-    // A coarse outline makes the axis much faster. The flow compensates for the lost area.
+    // The axis of a coarse outline has fewer branches. The flow compensates for the lost area.
     const Polygons outline = simplified(piece, 1.5 * line_.tolerance);
     const ThinParts thin =
         find_thin_parts(medial_axis(outline, line_.tolerance / 2), LineSettings::narrowest * line_.width,
