@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
-#include <vector>
+#include <queue>
+#include <utility>
 
 namespace lamella {
 
@@ -38,10 +40,10 @@ std::optional<double> way_down(dvec3 tip, dvec3 direction, const Field& part, co
     return {};
 }
 
-/// Returns whether the body stands on the bed around a place, an eighth of the radius to each side.
-bool stands_on_bed(dvec2 place, double first_plane, const Field& body, double radius) {
+/// Returns whether the body stands on the bed around a place, as far as `around` to each side, mm.
+bool stands_on_bed(dvec2 place, double first_plane, const Field& body, double around) {
     for (const dvec2 aside : {dvec2(0), dvec2(1, 0), dvec2(-1, 0), dvec2(0, 1), dvec2(0, -1)}) {
-        if (!(body.value(dvec3(place + radius / steps_in_a_radius * aside, first_plane)) <= 0)) return false;
+        if (!(body.value(dvec3(place + around * aside, first_plane)) <= 0)) return false;
     }
     return true;
 }
@@ -56,18 +58,80 @@ bool stays_in(const Field& body, dvec3 a, dvec3 b, double step) {
     return true;
 }
 
-/// Returns the places of a square grid around the origin up to a distance, nearest first.
-std::vector<dvec2> grid_around(double pitch, double reach) {
-    const int most = static_cast<int>(reach / pitch);
-    std::vector<dvec2> places;
-    for (int y = -most; y <= most; ++y) {
-        for (int x = -most; x <= most; ++x) {
-            const dvec2 place = pitch * dvec2(x, y);
-            if (glm::length(place) <= reach) places.push_back(place);
+/// A square grid of places at one height around a tip, and the shortest ways over it that stay in the body.
+class LevelPaths {
+  public:
+    LevelPaths(dvec3 tip, double pitch, double reach)
+        : tip_(tip),
+          pitch_(pitch),
+          reach_(reach),
+          most_(static_cast<int>(reach / pitch)),
+          width_(2 * most_ + 1),
+          from_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_), unreached) {}
+
+    /// Returns the places of the shortest way from the tip to the nearest place that `is_goal` accepts, both
+    /// ends included, and at every step; empty where there is none.
+    template <class Goal>
+    std::vector<dvec3> to_nearest(const Field& body, const Goal& is_goal) {
+        using Way = std::pair<double, int>;  // length, mm; index of its end
+        std::priority_queue<Way, std::vector<Way>, std::greater<>> open;
+        std::vector<double> length(from_.size(), reach_);
+        const int start = most_ * width_ + most_;
+        from_[static_cast<std::size_t>(start)] = start;
+        length[static_cast<std::size_t>(start)] = 0;
+        open.emplace(0.0, start);
+        while (!open.empty()) {
+            const auto [way, at] = open.top();
+            open.pop();
+            if (way > length[static_cast<std::size_t>(at)] || !(body.value(place(at)) <= 0)) continue;
+            if (is_goal(dvec2(place(at)))) return traced(at);
+            for (const glm::ivec2 turn : compass) {
+                const glm::ivec2 next = glm::ivec2(at % width_, at / width_) + turn;
+                if (std::min(next.x, next.y) < 0 || std::max(next.x, next.y) >= width_) continue;
+                const int index = next.y * width_ + next.x;
+                const double longer = way + pitch_ * glm::length(dvec2(turn));
+                if (longer >= length[static_cast<std::size_t>(index)]) continue;
+                length[static_cast<std::size_t>(index)] = longer;
+                from_[static_cast<std::size_t>(index)] = at;
+                open.emplace(longer, index);
+            }
         }
+        return {};
     }
-    std::ranges::stable_sort(places, {}, [](dvec2 place) { return glm::dot(place, place); });
-    return places;
+
+  private:
+    static constexpr int unreached = -1;
+    static constexpr glm::ivec2 compass[] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
+                                             {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+
+    dvec3 place(int index) const {
+        return tip_ + pitch_ * dvec3(index % width_ - most_, index / width_ - most_, 0);
+    }
+
+    std::vector<dvec3> traced(int end) const {
+        std::vector<dvec3> way{place(end)};
+        for (int at = end; from_[static_cast<std::size_t>(at)] != at;) {
+            at = from_[static_cast<std::size_t>(at)];
+            way.push_back(place(at));
+        }
+        std::ranges::reverse(way);
+        return way;
+    }
+
+    dvec3 tip_;
+    double pitch_, reach_;
+    int most_, width_;
+    std::vector<int> from_;  // index of the place before it on its way; the tip's own
+};
+
+/// Returns the ends and bends of a way, with straight legs that stay in the body.
+std::vector<dvec3> straightened(const std::vector<dvec3>& way, const Field& body, double step) {
+    std::vector<dvec3> bends{way.front()};
+    for (std::size_t i = 1; i < way.size(); ++i) {
+        if (!stays_in(body, bends.back(), way[i], step)) bends.push_back(way[i - 1]);
+    }
+    bends.push_back(way.back());
+    return bends;
 }
 
 }  // namespace
@@ -92,18 +156,23 @@ std::optional<Beam> strut_below(dvec3 tip, const Field& part, const Field& body,
     return best;
 }
 
-std::optional<Beam> strut_to_bed(dvec3 tip, double first_plane, const Field& body,
-                                 const TipStrutOptions& options) {
+std::vector<Beam> struts_to_bed(dvec3 tip, double first_plane, const Field& body,
+                                const TipStrutOptions& options) {
     if (tip.z - first_plane > 0.5 * options.radius) return {};
     const double bed = first_plane - 0.5 * options.layer_height;
     const double step = options.radius / steps_in_a_radius;
-    for (const dvec2 aside : grid_around(step, std::min(options.reach, farthest_foot * options.radius))) {
-        const dvec2 foot = dvec2(tip) + aside;
-        if (stands_on_bed(foot, first_plane, body, options.radius) &&
-            stays_in(body, tip, dvec3(foot, tip.z), step))
-            return Beam{tip, options.radius, dvec3(foot, bed), 0.5 * options.radius};
-    }
-    return {};
+    LevelPaths paths(tip, step, std::min(options.reach, farthest_foot * options.radius));
+    const auto way = paths.to_nearest(
+        body, [&](dvec2 place) { return stands_on_bed(place, first_plane, body, 0.5 * step); });
+    if (way.empty()) return {};
+    const std::vector<dvec3> bends = straightened(way, body, step);
+    std::vector<Beam> legs;
+    legs.reserve(bends.size() - 1);
+    for (std::size_t i = 0; i + 1 < bends.size(); ++i)
+        legs.push_back({bends[i], options.radius, bends[i + 1], options.radius});
+    legs.back().b.z = bed;
+    legs.back().rb = 0.5 * options.radius;
+    return legs;
 }
 
 }  // namespace lamella

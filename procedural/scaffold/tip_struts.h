@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/field/field.h"
 #include "engine/solids/beam.h"
@@ -21,13 +22,13 @@ struct TipStrutOptions {
 std::optional<Beam> strut_below(dvec3 tip, const Field& part, const Field& body,
                                 const TipStrutOptions& options);
 
-/// Returns the shortest strut from a tip close above the bed to the bed, within the body: sideways, as flat
-/// as the body itself leaves the bed. Its foot is half as thick, and lies where the body reaches down to the
-/// bed; such places are
-/// looked for on a grid of an eighth of the radius, up to twelve radii away. Returns nothing when the tip is
-/// higher above the bed than half the radius, or no such place lies within reach. `first_plane` is the height
-/// of the lowest layer's cutting plane, mm; half a layer lies below it.
-std::optional<Beam> strut_to_bed(dvec3 tip, double first_plane, const Field& body,
-                                 const TipStrutOptions& options);
+/// Returns a strut from a tip close above the bed to the bed, within the body: sideways, as flat as the body
+/// itself leaves the bed, and in several legs where the straight way leaves the body. Its foot is half as
+/// thick, and lies where the body reaches down to the bed: the nearest such place on a grid of an eighth of
+/// the radius, up to twelve radii away. Returns no leg when the tip is higher above the bed than half the
+/// radius, or no such place lies within reach. `first_plane` is the height of the lowest layer's cutting
+/// plane, mm; half a layer lies below it.
+std::vector<Beam> struts_to_bed(dvec3 tip, double first_plane, const Field& body,
+                                const TipStrutOptions& options);
 
 }  // namespace lamella

@@ -71,11 +71,13 @@ void hold_tips(const Recipe& recipe, BuiltJob& built, RepairReport& report, doub
     options.layer_height = built.layers.plan.least_height();
     std::vector<FieldPtr> solids;
     for (const dvec3 tip : report.tips->begins) {
-        auto strut = strut_below(tip, *built.job.part, *body, options);
-        if (!strut) strut = strut_to_bed(tip, built.job.plane(0), *body, options);
-        if (!strut) continue;
-        report.holds.push_back(*strut);
-        solids.push_back(make_round_cone(*strut));
+        const auto below = strut_below(tip, *built.job.part, *body, options);
+        const std::vector<Beam> legs =
+            below ? std::vector{*below} : struts_to_bed(tip, built.job.plane(0), *body, options);
+        for (const Beam& leg : legs) {
+            report.holds.push_back(leg);
+            solids.push_back(make_round_cone(leg));
+        }
     }
     if (solids.empty()) return;
     const FieldPtr struts = make_intersection({make_union(std::move(solids)), body});

@@ -71,21 +71,50 @@ TEST_CASE("a tip close above the bed gets a strut to where the body stands on th
     constexpr double first_plane = 0.025;
     const double footprint = std::sqrt(2 * 10 * first_plane - first_plane * first_plane);
     const dvec3 foot{1.1, 0, 0.075};  // within the ball, beside its footprint
-    const auto found = strut_to_bed(foot, first_plane, *ball, TipStrutOptions());
-    REQUIRE(found);
-    CHECK(found->a == foot);
-    CHECK(found->b.x == Approx(footprint - 0.1).margin(0.11));
-    CHECK(std::abs(found->b.y) < 1e-9);
-    CHECK(std::abs(found->b.z) < 1e-9);
-    CHECK(found->rb == 0.2);
+    const auto found = struts_to_bed(foot, first_plane, *ball, TipStrutOptions());
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].a == foot);
+    CHECK(found[0].b.x == Approx(footprint - 0.1).margin(0.11));
+    CHECK(std::abs(found[0].b.y) < 1e-9);
+    CHECK(std::abs(found[0].b.z) < 1e-9);
+    CHECK(found[0].rb == 0.2);
     // Far away, the small footprint is found as well.
-    const auto farther = strut_to_bed({-1.9, 1.9, 0.37}, 0.31, *ball, {.radius = 0.2});
-    REQUIRE(farther);
-    CHECK(glm::length(dvec2(farther->b)) <= std::sqrt(2 * 10 * 0.31));
+    const auto farther = struts_to_bed({-1.9, 1.9, 0.37}, 0.31, *ball, {.radius = 0.2});
+    REQUIRE(farther.size() == 1);
+    CHECK(glm::length(dvec2(farther[0].b)) <= std::sqrt(2 * 10 * 0.31));
     // No bed in reach, too high above it, or a body that hangs above it.
-    CHECK(!strut_to_bed(foot, first_plane, *ball, {.radius = 0.4, .reach = 0.2}));
-    CHECK(!strut_to_bed({1.1, 0, 0.23}, first_plane, *ball, TipStrutOptions()));
-    CHECK(!strut_to_bed(foot, first_plane, *make_box({{-5, -5, 0.03}, {5, 5, 5}}), TipStrutOptions()));
+    CHECK(struts_to_bed(foot, first_plane, *ball, {.radius = 0.4, .reach = 0.2}).empty());
+    CHECK(struts_to_bed({1.1, 0, 0.23}, first_plane, *ball, TipStrutOptions()).empty());
+    CHECK(
+        struts_to_bed(foot, first_plane, *make_box({{-5, -5, 0.03}, {5, 5, 5}}), TipStrutOptions()).empty());
+}
+
+TEST_CASE("a strut to the bed goes round a corner of the body in legs", "[supports]") {
+    // An L whose far end alone stands on the bed, and the same with a slit through its second arm.
+    const FieldPtr arms =
+        make_union({make_box({{-1, -1, 0.05}, {3, 1.02, 5}}), make_box({{1.98, -1, 0.05}, {3, 3, 5}})});
+    const FieldPtr body = make_union({arms, make_box({{1.98, 1.98, -1}, {3, 3, 5}})});
+    constexpr double first_plane = 0.025;
+    const dvec3 tip{0, 0.5, 0.075};
+    const auto legs = struts_to_bed(tip, first_plane, *body, TipStrutOptions());
+    REQUIRE(legs.size() >= 2);
+    REQUIRE(legs.size() <= 3);  // the grid may have two bends at the corner
+    CHECK(legs.front().a == tip);
+    CHECK(legs.back().b.y == Approx(2).margin(0.051));
+    CHECK(legs.back().b.z == Approx(0));
+    CHECK(legs.back().rb == 0.2);
+    double length = 0;
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+        length += glm::length(dvec2(legs[i].b - legs[i].a));
+        if (i + 1 == legs.size()) continue;
+        CHECK(legs[i].b == legs[i + 1].a);
+        CHECK(legs[i].rb == 0.4);
+        CHECK(legs[i].b.z == tip.z);
+        CHECK(glm::length(dvec2(legs[i].b) - dvec2(2, 1)) < 0.12);  // the inner corner
+    }
+    CHECK(length == Approx(std::hypot(2, 0.5) + 1).margin(0.15));
+    const FieldPtr slit = make_box({{1, 1.4, -2}, {4, 1.6, 6}});
+    CHECK(struts_to_bed(tip, first_plane, *make_difference(body, slit), TipStrutOptions()).empty());
 }
 
 }  // namespace tip_struts_test
