@@ -27,6 +27,8 @@ pkg_check_modules(libzip REQUIRED IMPORTED_TARGET GLOBAL libzip)
 add_library(libzip::zip ALIAS PkgConfig::libzip)
 pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET GLOBAL libdeflate)
 add_library(libdeflate::libdeflate ALIAS PkgConfig::libdeflate)
+pkg_check_modules(spng REQUIRED IMPORTED_TARGET GLOBAL spng)
+add_library(spng::spng ALIAS PkgConfig::spng)
 pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET GLOBAL polyclipping)
 add_library(polyclipping::polyclipping ALIAS PkgConfig::polyclipping)
 # OpenImageIO's own CMake package names programs and OpenCV headers that its development package does not install.

@@ -1,8 +1,12 @@
-// Loads the image library on first use.
+// PNG images are read here; for all else the image library is loaded on first use.
 #include "engine/io/image_file.h"
+
+#include <fstream>
 
 #include "engine/base/error.h"
 #include "engine/base/module_file.h"
+#include "engine/base/whole_file.h"
+#include "engine/io/png_reader.h"
 
 namespace lamella {
 namespace {
@@ -24,9 +28,17 @@ const ImageLibrary& library() {
 
 }  // namespace
 
-std::unique_ptr<ImageReader> open_images(const std::string& path) { return library().open(path); }
+std::unique_ptr<ImageReader> open_images(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes(png_signature.size(), '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!file || bytes != png_signature) return library().open(path);
+    std::string why;
+    return open_kept_png(whole_file(path, "an image"), why);
+}
 
 std::unique_ptr<ImageReader> open_images(const std::string& name, std::string_view bytes, std::string& why) {
+    if (name.ends_with(".png")) return open_png(bytes, why);
     return library().open_bytes(name, bytes, why);
 }
 

@@ -1,5 +1,5 @@
-// Reads and writes images of many formats. The library behind it is large and few runs need it, so it is
-// loaded on first use.
+// Reads and writes images of many formats. The library behind all but reading PNG is large and few runs need
+// it, so it is loaded on first use.
 #pragma once
 
 #include <cstddef>
