@@ -100,8 +100,9 @@ PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows&
     constexpr int rounds = 4;
     constexpr double near_enough = 0.005, kept = 0.8;
     PrintablePattern made;
-    double aim = settings.share;
-    for (int round = 0; round < rounds; ++round) {
+    double aim = settings.cut_share.value_or(settings.share);
+    for (int round = 0; round < rounds && aim != made.cut_share; ++round) {
+        made.cut_share = aim;
         const float threshold = threshold_for_share(pattern, aim);
         made.distance = cut(sites, windows, pattern, threshold, settings);
         add_struts(sites, bridges, settings.strut, made.distance);

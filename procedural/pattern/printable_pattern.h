@@ -1,6 +1,7 @@
 // PrintablePattern: a synthesised pattern in one piece, with least widths.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,11 +15,14 @@ struct PrintSettings {
     double strut = 0.8;  ///< least width of struts, mm
     double gap = 0;      ///< least width of gaps, mm; 0: any
     double limit = 1;    ///< largest distance that is told, mm
+    /// Solid share at which to cut the pattern first, as an earlier result's `cut_share`; without: `share`.
+    std::optional<double> cut_share = {};
 };
 
 struct PrintablePattern {
     std::vector<float> distance;  ///< from the border, mm, positive in the solid, by site
     double share = 0;             ///< of the surface that is solid
+    double cut_share = 0;         ///< of the pattern that lies above its threshold
     std::size_t pieces = 0;       ///< before they were joined, without those that were dropped
     std::size_t dropped = 0;      ///< pieces too small to keep
     std::vector<SiteLine> joins;  ///< the middle lines of struts that join pieces

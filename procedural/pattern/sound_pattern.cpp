@@ -40,8 +40,7 @@ void build(const PatternLevel& level, const Exemplar& exemplar, std::span<const 
 }  // namespace
 
 SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
-                           const SynthesisSettings& synthesis, const PrintSettings& print,
-                           BridgeChoice* choice) {
+                           const SynthesisSettings& synthesis, PrintSettings print, BridgeChoice* choice) {
     constexpr int most_rounds = 16;
     constexpr int first_round = 1000;  // of random numbers: grids have the lower ones
     SoundPattern made, best;
@@ -50,6 +49,7 @@ SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, 
     for (int round = 0;; ++round) {
         stop_if_cancelled(synthesis.cancel);
         made.printed = printable_pattern(level.sites, level.windows, found.pattern, bridges, print);
+        print.cut_share = made.printed.cut_share;  // nearly right for the next round
         const std::size_t built = bridges.size();
         if (round == 0) {
             made.pieces = made.printed.pieces;

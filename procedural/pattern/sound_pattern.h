@@ -35,7 +35,6 @@ struct SoundPattern {
 /// that are chosen after sixteen rounds are not built. Of the rounds, that of the least weak pattern counts.
 /// Throws as printable_pattern(), Interrupted when cancelled.
 SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, SynthesisResult found,
-                           const SynthesisSettings& synthesis, const PrintSettings& print,
-                           BridgeChoice* choice);
+                           const SynthesisSettings& synthesis, PrintSettings print, BridgeChoice* choice);
 
 }  // namespace lamella
