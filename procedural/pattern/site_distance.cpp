@@ -2,6 +2,7 @@
 #include "procedural/pattern/site_distance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <queue>
 #include <utility>
@@ -13,36 +14,45 @@ namespace {
 class FootPropagation {
   public:
     FootPropagation(const SurfaceSites& sites, double limit)
-        : sites_(sites), feet_(sites.size()), distances_(sites.size(), limit) {}
+        : sites_(sites), feet_(sites.size()), squares_(sites.size(), limit * limit) {}
 
     /// Proposes a point as the nearest one to a site.
     void propose(std::size_t site, dvec3 foot) {
         const dvec3 way = sites_.way(sites_.places[site], foot);
-        const double distance = std::sqrt(glm::dot(way, way));
-        if (!(distance < distances_[site])) return;
-        distances_[site] = distance;
+        const double square = glm::dot(way, way);
+        if (!(square < squares_[site])) return;
+        squares_[site] = square;
         feet_[site] = foot;
-        open_.emplace(distance, static_cast<std::uint32_t>(site));
+        open_.push(entry(site));
     }
 
     /// Returns the distances of all sites.
     std::vector<double> finish() {
         while (!open_.empty()) {
-            const auto [distance, site] = open_.top();
+            const std::uint64_t nearest = open_.top();
             open_.pop();
-            if (distance > distances_[site]) continue;
+            const auto site = static_cast<std::uint32_t>(nearest);
+            if (nearest != entry(site)) continue;  // it was found to be nearer
             const dvec3 foot = feet_[site];
             for (const std::uint32_t other : sites_.neighbours(site)) propose(other, foot);
         }
-        return std::move(distances_);
+        for (double& square : squares_) square = std::sqrt(square);
+        return std::move(squares_);
     }
 
   private:
-    using Entry = std::pair<double, std::uint32_t>;
+    /// Returns a site with its distance as a number that orders entries by distance: bits of a positive float
+    /// above those of the site.
+    std::uint64_t entry(std::size_t site) const {
+        constexpr int site_bits = 32;
+        const auto square = static_cast<float>(squares_[site]);
+        return std::uint64_t{std::bit_cast<std::uint32_t>(square)} << site_bits | site;
+    }
+
     const SurfaceSites& sites_;
     std::vector<dvec3> feet_;
-    std::vector<double> distances_;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+    std::vector<double> squares_;  // of the distances
+    std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> open_;
 };
 
 /// Returns whether two sites are neighbours.
@@ -57,9 +67,10 @@ struct Crossing {
 };
 
 /// Proposes points of the border near a site: where it crosses the ways to neighbours, and between them.
+/// `crossings` is for reuse.
 void propose_border(const SurfaceSites& sites, std::span<const float> values, std::uint32_t site,
-                    FootPropagation& feet) {
-    std::vector<Crossing> crossings;
+                    std::vector<Crossing>& crossings, FootPropagation& feet) {
+    crossings.clear();
     const double here = static_cast<double>(values[site]);
     for (const std::uint32_t other : sites.neighbours(site)) {
         const double there = static_cast<double>(values[other]);
@@ -88,7 +99,8 @@ void propose_border(const SurfaceSites& sites, std::span<const float> values, st
 
 std::vector<float> signed_distances(const SurfaceSites& sites, std::span<const float> values, double limit) {
     FootPropagation feet(sites, limit);
-    for (std::uint32_t i = 0; i < sites.size(); ++i) propose_border(sites, values, i, feet);
+    std::vector<Crossing> crossings;
+    for (std::uint32_t i = 0; i < sites.size(); ++i) propose_border(sites, values, i, crossings, feet);
     const std::vector<double> distances = feet.finish();
     std::vector<float> signs;
     signs.reserve(distances.size());

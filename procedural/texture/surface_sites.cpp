@@ -83,14 +83,6 @@ class SiteCubes {
 
 }  // namespace
 
-dvec3 SurfaceSites::way(dvec3 from, dvec3 to) const {
-    dvec3 way = to - from;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (period[axis] > 0) way[axis] -= period[axis] * std::round(way[axis] / period[axis]);
-    }
-    return way;
-}
-
 SurfaceSites flat_sites(int width, int height, double spacing) {
     constexpr int least = 3;  // a site's neighbours to the left and to the right are two
     if (width < least || height < least)

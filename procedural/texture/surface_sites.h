@@ -1,6 +1,7 @@
 // SurfaceSites: points spread evenly over a surface, and which of them are neighbours.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,7 +26,14 @@ struct SurfaceSites {
         return std::span(adjacent).subspan(first[site], first[site + 1] - first[site]);
     }
     /// Returns the way from one place to another, the shortest of all copies.
-    dvec3 way(dvec3 from, dvec3 to) const;
+    dvec3 way(dvec3 from, dvec3 to) const {
+        dvec3 way = to - from;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (period[axis] > 0 && std::abs(way[axis]) > 0.5 * period[axis])
+                way[axis] -= period[axis] * std::round(way[axis] / period[axis]);
+        }
+        return way;
+    }
 };
 
 /// Returns the sites of a flat sheet that tiles the plane z = 0: the centres of `width` x `height` squares,
