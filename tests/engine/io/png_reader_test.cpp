@@ -18,6 +18,7 @@ using namespace lamella;
 namespace {
 
 constexpr int width = 13, height = 11;
+constexpr std::size_t pixels = 143;
 constexpr int grey = 0, colours = 2, palette = 3, grey_alpha = 4, colours_alpha = 6;
 
 void put_big_endian(std::string& bytes, std::uint32_t value, int count) {
@@ -57,7 +58,8 @@ struct Sample {
         return type == colours ? 3 : type == grey_alpha ? 2 : type == colours_alpha ? 4 : 1;
     }
     std::uint32_t at(int x, int y, int channel) const {
-        return samples[static_cast<std::size_t>((y * width + x) * channels() + channel)];
+        return samples[static_cast<std::size_t>(y * width + x) * static_cast<std::size_t>(channels()) +
+                       static_cast<std::size_t>(channel)];
     }
 
     /// The rows of one pass, each behind the number of its filter: none.
@@ -106,7 +108,7 @@ struct Sample {
             }
             bytes += chunk("tRNS", marked);
         }
-        std::string pixels;
+        std::string packed;
         if (interlaced) {
             constexpr std::array<std::array<int, 4>, 7> adam7{{{0, 0, 8, 8},
                                                                {4, 0, 8, 8},
@@ -115,11 +117,11 @@ struct Sample {
                                                                {0, 2, 2, 4},
                                                                {1, 0, 2, 2},
                                                                {0, 1, 1, 2}}};
-            for (const auto& [x0, y0, dx, dy] : adam7) pixels += rows(x0, y0, dx, dy);
+            for (const auto& [x0, y0, dx, dy] : adam7) packed += rows(x0, y0, dx, dy);
         } else {
-            pixels = rows(0, 0, 1, 1);
+            packed = rows(0, 0, 1, 1);
         }
-        return bytes + chunk("IDAT", deflated(pixels)) + chunk("IEND", "");
+        return bytes + chunk("IDAT", deflated(packed)) + chunk("IEND", "");
     }
 
     static std::uint32_t palette_entry(std::uint32_t i) { return i * 37 + 11 & 255U; }
@@ -171,7 +173,7 @@ std::vector<Sample> all_kinds() {
 template <class T>
 void check_channels(ImageReader& reader, const Sample& kind) {
     for (int channel = 0; channel < kind.read_channels(); ++channel) {
-        std::vector<T> samples(width * height);
+        std::vector<T> samples(pixels);
         REQUIRE(reader.read_channel(channel, samples.data()).empty());
         for (int i = 0; i < width * height; ++i)
             REQUIRE(samples[static_cast<std::size_t>(i)] == kind.expected(i % width, i / width, channel));
@@ -210,7 +212,7 @@ TEST_CASE("PNG samples as bytes are those of OpenImageIO", "[png]") {
         const auto reader = open_kept_png(file, why);
         REQUIRE(reader);
         const int channels = reader->next_page()->channels;
-        std::vector<std::uint8_t> ours(static_cast<std::size_t>(width * height * channels)), theirs(ours);
+        std::vector<std::uint8_t> ours(pixels * static_cast<std::size_t>(channels)), theirs(ours);
         REQUIRE(reader->read_bytes(ours.data()).empty());
         OIIO::Filesystem::IOMemReader memory(file.data(), file.size());
         OIIO::ImageSpec spec, config;
@@ -237,7 +239,7 @@ TEST_CASE("a damaged PNG file is refused", "[png]") {
     CHECK(!why.empty());
     CHECK(!open_png("no image at all", why));
     CHECK(!why.empty());
-    std::vector<std::uint8_t> samples(width * height);
+    std::vector<std::uint8_t> samples(pixels);
     for (std::size_t cut = 33; cut + 12 < file.size(); ++cut) {
         const std::string part = file.substr(0, cut);
         const auto reader = open_png(part, why);
