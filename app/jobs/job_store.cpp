@@ -2,6 +2,7 @@
 #include "app/jobs/job_store.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "app/http/http_server.h"
 #include "recipe/build/support_plan.h"
@@ -96,7 +97,9 @@ std::shared_ptr<const ServedJob> JobStore::build(const std::string& text, const 
     const std::shared_ptr<CancelToken> cancel = begin(session, sequence);
     const Recipe recipe = read_served_recipe(text, folder_);
     end_work(session, sequence);  // of a recipe with mistakes the page shows the job before
-    if (auto job = held(served_job_id(recipe, text, &inputs_))) return job;
+    const std::string id = served_job_id(recipe, text, &inputs_);
+    wait_for_ahead(id, *cancel);
+    if (auto job = held(id)) return job;
     if (!searches) check_is_searched(recipe);
     BuildControl control;
     control.threads = threads_;
@@ -112,6 +115,36 @@ std::shared_ptr<const ServedJob> JobStore::build(const std::string& text, const 
     return job;
 }
 
+std::shared_ptr<const ServedJob> JobStore::build_ahead(const std::string& text) {
+    std::shared_ptr<const ServedJob> job;
+    try {
+        const Recipe recipe = read_served_recipe(text, folder_);
+        check_is_searched(recipe);
+        const std::string id = served_job_id(recipe, text, &inputs_);
+        {
+            const std::lock_guard lock(mutex_);
+            ahead_ = id;
+        }
+        BuildControl control;
+        control.threads = threads_;
+        control.cancel = &ahead_cancel_;
+        control.inputs = &inputs_;
+        job = build_served_job(text, folder_, control);
+        hold(job);
+    } catch (const std::exception&) {  // told to whoever asks for the job
+    }
+    const std::lock_guard lock(mutex_);
+    ahead_.clear();
+    ahead_ended_.notify_all();
+    return job;
+}
+
+void JobStore::wait_for_ahead(const std::string& id, const CancelToken& cancel) {
+    constexpr std::chrono::milliseconds look{20};
+    std::unique_lock lock(mutex_);
+    while (ahead_ == id && !cancel.cancelled()) ahead_ended_.wait_for(lock, look);
+}
+
 std::shared_ptr<const ServedJob> JobStore::find(const std::string& id) {
     if (auto job = held(id)) return job;
     throw HttpError(404, "this job is not held, or not any more; accepted: POST its recipe to /api/jobs");
@@ -125,6 +158,7 @@ void JobStore::forget(const std::string& id) {
 
 void JobStore::cancel_all() {
     const std::lock_guard lock(mutex_);
+    ahead_cancel_.cancel();
     for (auto& [session, build] : builds_) {
         build.cancel->cancel();
         build.end_work();

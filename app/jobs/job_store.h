@@ -1,6 +1,7 @@
 // JobStore: the jobs that a server holds, and those that it is building.
 #pragma once
 
+#include <condition_variable>
 #include <list>
 #include <map>
 #include <memory>
@@ -24,6 +25,9 @@ class JobStore {
     /// search that it may not do, and Interrupted when a build with a higher number came.
     std::shared_ptr<const ServedJob> build(const std::string& text, const std::string& session,
                                            std::int64_t sequence, bool searches = true);
+    /// Builds the job of a text before anyone asks for it; build() waits for it. Returns null where build()
+    /// would throw, or all builds are cancelled.
+    std::shared_ptr<const ServedJob> build_ahead(const std::string& text);
     /// Ends the build of a session, and what is computed for those who look at its job.
     void end_session(const std::string& session);
     /// Returns what tells slow work for a session that a newer recipe of the session has come; null for a
@@ -53,6 +57,7 @@ class JobStore {
     void end_work(const std::string& session, std::int64_t sequence);
     std::shared_ptr<const ServedJob> held(const std::string& id);
     void hold(std::shared_ptr<const ServedJob> job);
+    void wait_for_ahead(const std::string& id, const CancelToken& cancel);
 
     const ServedFolder& folder_;
     EventHub& events_;
@@ -62,6 +67,9 @@ class JobStore {
     std::mutex mutex_;
     std::list<std::shared_ptr<const ServedJob>> jobs_;  // the one used last first
     std::map<std::string, Build> builds_;               // the latest of each session
+    std::string ahead_;                                 // id of the job that is built ahead, while it is
+    CancelToken ahead_cancel_;
+    std::condition_variable ahead_ended_;
 };
 
 }  // namespace lamella

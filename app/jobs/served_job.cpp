@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_access.hpp>
 
+#include "app/jobs/layer_content.h"
 #include "app/jobs/part_numbers.h"
 #include "app/jobs/part_structure.h"
 #include "app/jobs/recipe_mistakes.h"
@@ -131,6 +132,18 @@ std::shared_ptr<const PreviewScene> ServedJob::scene(int pixels, int threads) co
         scene_pixels_ = pixels;
     }
     return scene_;
+}
+
+std::shared_ptr<const std::string> ServedJob::coverage(int longest, const PassControl& control) const {
+    constexpr int coarse = 64;  // half a megabyte at most
+    if (longest > coarse)
+        return std::make_shared<const std::string>(coverage_volume(*this, longest, control));
+    const std::lock_guard lock(volume_mutex_);
+    if (!volume_ || volume_longest_ != longest) {
+        volume_ = std::make_shared<const std::string>(coverage_volume(*this, longest, control));
+        volume_longest_ = longest;
+    }
+    return volume_;
 }
 
 namespace {

@@ -28,6 +28,9 @@ struct ServedJob {
     const Job& job() const { return built.job; }
     /// Returns a scene for pictures of so many pixels a side, which is kept for the next one.
     std::shared_ptr<const PreviewScene> scene(int pixels, int threads) const;
+    /// Returns a volume of coverage as coverage_volume() does. A coarse one is kept: each page asks for it
+    /// first.
+    std::shared_ptr<const std::string> coverage(int longest, const PassControl& control) const;
     /// Name, machine, bounds, layers and notes, as the interface describes a job.
     nlohmann::ordered_json facts() const;
 
@@ -35,6 +38,9 @@ struct ServedJob {
     mutable std::mutex scene_mutex_;
     mutable std::shared_ptr<const PreviewScene> scene_;
     mutable int scene_pixels_ = 0;
+    mutable std::mutex volume_mutex_;
+    mutable std::shared_ptr<const std::string> volume_;
+    mutable int volume_longest_ = 0;
 };
 
 /// How far a build is: what is done, and how many steps of how many.

@@ -135,7 +135,7 @@ void add_layer_routes(ServerState& state) {
     add("curve/islands", curve<island_curve>, View::curve);
     add("curve/time", curve<time_curve>, View::curve);
     add("volume", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
-        return volume(coverage_volume(*a.job, request.integer("n", 96, 8, 256), control));
+        return volume(*a.job->coverage(request.integer("n", 96, 8, 256), control));
     });
     add("modulus", [volume](const Asked& a, const HttpRequest& request, const PassControl& control) {
         return volume(modulus_volume(*a.job, request.integer("n", 96, 8, 256), control));

@@ -6,11 +6,28 @@
 #include <chrono>
 #include <thread>
 
+#include "engine/base/whole_file.h"
+
 namespace lamella {
 
 namespace {
 
 constexpr std::ptrdiff_t most_computing = 3;
+
+/// Computes what the page first shows of the recipe that it begins with, while the browser starts.
+void show_ahead(ServerState& state, const CancelToken& cancel) {
+    constexpr int coarse = 64;  // as the page asks for it
+    try {
+        const std::string file = state.folder.file(state.options.recipe).string();
+        const auto job = state.jobs.build_ahead(whole_file(file, "a recipe"));
+        if (!job) return;
+        PassControl control;
+        control.threads = state.options.threads;
+        control.cancel = &cancel;
+        job->coverage(coarse, control);
+    } catch (const std::exception&) {  // told to the page when it asks
+    }
+}
 
 }  // namespace
 
@@ -61,10 +78,14 @@ void serve_http(const ServerOptions& options, const CancelToken& cancel,
         state.events.end();
         state.http.stop();
     });
+    std::thread ahead([&] {
+        if (options.has_page && !options.recipe.empty()) show_ahead(state, cancel);
+    });
     const std::string host = options.http.address == "0.0.0.0" ? "127.0.0.1" : options.http.address;
     on_ready(fmt::format("http://{}:{}/?token={}", host, state.http.port(), options.http.token));
     state.http.serve();
     has_ended = true;
+    ahead.join();
     watch.join();
 }
 

@@ -33,6 +33,12 @@ const coarse = 64;
 const fine = 160;
 const idle = 400;
 
+/** The first picture waits for nothing. */
+const at_once: typeof after_layer = (_, act) => {
+    act();
+    return () => {};
+};
+
 function watch_volume(on: Stage): () => void {
     const latest = new Latest();
     let timer = 0;
@@ -60,7 +66,7 @@ function watch_volume(on: Stage): () => void {
         }
         if (!made) return;
         call_off = untracked(() =>
-            after_layer(made, () => {
+            (on.voxels ? after_layer : at_once)(made, () => {
                 load(made, coarse);
                 timer = window.setTimeout(() => load(made, fine), idle);
             }),
