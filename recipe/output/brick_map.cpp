@@ -1,20 +1,39 @@
-// Traversal from wall to wall of the largest empty brick around the ray's position.
+// Traversal from wall to wall of the largest empty cube around the ray's position.
 #include "recipe/output/brick_map.h"
+
+#include <algorithm>
 
 #include "recipe/output/whole_below.h"
 
 namespace lamella {
 namespace {
 
-glm::ivec3 blocks_of(glm::ivec3 cells, int doublings) { return ((cells - 1) >> doublings) + 1; }
+constexpr int brick_doublings = 2;  // a brick is 2^2 cells wide
+constexpr std::uint8_t farthest = 255;
 
-/// Returns where the ray leaves the block around a cell; blocks are 2^`doublings` cells wide.
-double leaving(glm::ivec3 cell, int doublings, const BrickMap::Ray& ray) {
+glm::ivec3 bricks_of(glm::ivec3 cells) { return ((cells - 1) >> brick_doublings) + 1; }
+
+/// Returns where the ray leaves the blocks from `lower` to before `upper`; blocks are 2^`doublings` cells
+/// wide.
+double leaving(glm::ivec3 lower, glm::ivec3 upper, int doublings, const BrickMap::Ray& ray) {
     const auto exit = [&](int k) {
-        const int wall = ((cell[k] >> doublings) + ray.forward[k]) << doublings;
+        const int wall = (ray.forward[k] != 0 ? upper[k] : lower[k]) << doublings;
         return (wall - ray.start[k]) * ray.inverse[k];
     };
     return std::min(std::min(exit(0), exit(1)), exit(2));
+}
+
+/// Lowers the distances of a row of bricks to one more than the least of their neighbours in other rows.
+void near_rows(const std::vector<const std::uint8_t*>& others, std::size_t count,
+               std::vector<std::uint8_t>& least, std::uint8_t* row) {
+    std::fill_n(least.begin(), count + 2, farthest);
+    for (const std::uint8_t* other : others) {
+        for (std::size_t x = 0; x < count; ++x) least[x + 1] = std::min(least[x + 1], other[x]);
+    }
+    for (std::size_t x = 0; x < count; ++x) {
+        const std::uint8_t near = std::min(std::min(least[x], least[x + 1]), least[x + 2]);
+        row[x] = std::min(row[x], static_cast<std::uint8_t>(std::min(near, std::uint8_t{farthest - 1}) + 1));
+    }
 }
 
 }  // namespace
@@ -27,53 +46,65 @@ BrickMap::Ray::Ray(dvec3 from, dvec3 towards) : start(from), direction(towards),
     }
 }
 
-BrickMap::Level::Level(glm::ivec3 n) : size(n) {
-    words.assign(
-        static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z), 0);
+BrickMap::BrickMap(glm::ivec3 cells) : cells_(cells), bricks_(bricks_of(cells)) {
+    words_.assign(at(0, 0, bricks_.z), 0);
 }
 
-BrickMap::BrickMap(glm::ivec3 cells)
-    : cells_(cells),
-      leaves_(blocks_of(cells, 2)),
-      bricks_(blocks_of(cells, 4)),
-      blocks_(blocks_of(cells, 6)) {}
-
+/// Chessboard distances in two sweeps, each of which looks at the neighbours that it has passed (Rosenfeld
+/// and Pfaltz 1966).
 void BrickMap::finish() {
-    mark_above(leaves_, bricks_);
-    mark_above(bricks_, blocks_);
-}
-
-void BrickMap::mark_above(const Level& below, Level& above) {
-    for (int z = 0; z < below.size.z; ++z) {
-        for (int y = 0; y < below.size.y; ++y) {
-            for (int x = 0; x < below.size.x; ++x) {
-                if (below.words[below.at(x, y, z)] != 0)
-                    above.words[above.at(x >> 2, y >> 2, z >> 2)] |= bit(x, y, z);
-            }
+    far_.resize(words_.size());
+    std::ranges::transform(words_, far_.begin(),
+                           [](std::uint64_t word) { return word != 0 ? std::uint8_t{0} : farthest; });
+    const auto count = static_cast<std::size_t>(bricks_.x);
+    std::vector<std::uint8_t> least(count + 2);
+    std::vector<const std::uint8_t*> passed;
+    const auto sweep = [&](int y, int z, int back) {
+        passed.clear();
+        const auto pass = [&](int other_y, int other_z) {
+            if (other_y >= 0 && other_y < bricks_.y && other_z >= 0 && other_z < bricks_.z)
+                passed.push_back(&far_[at(0, other_y, other_z)]);
+        };
+        for (int dy = -1; dy <= 1; ++dy) pass(y + dy, z + back);
+        pass(y + back, z);
+        std::uint8_t* const row = &far_[at(0, y, z)];
+        near_rows(passed, count, least, row);
+        const auto step = [](std::uint8_t before, std::uint8_t& here) {
+            if (before < here) here = std::min(here, static_cast<std::uint8_t>(before + 1));
+        };
+        if (back < 0) {
+            for (std::size_t x = 1; x < count; ++x) step(row[x - 1], row[x]);
+        } else {
+            for (std::size_t x = count - 1; x-- > 0;) step(row[x + 1], row[x]);
         }
+    };
+    for (int z = 0; z < bricks_.z; ++z) {
+        for (int y = 0; y < bricks_.y; ++y) sweep(y, z, -1);
+    }
+    for (int z = bricks_.z - 1; z >= 0; --z) {
+        for (int y = bricks_.y - 1; y >= 0; --y) sweep(y, z, 1);
     }
 }
 
-/// Returns how many doublings of its cells the empty part of a word around a cell spans: 2 for all, 1 for an
-/// eighth, 0 for the cell's own bit; -1 when that bit is set.
-int BrickMap::empty_in(std::uint64_t word, int x, int y, int z) {
+/// Returns how many doublings of its cells the empty part of a word around a cell spans: 1 for an eighth, 0
+/// for the cell's own bit; -1 when that bit is set.
+int BrickMap::empty_in(std::uint64_t word, glm::ivec3 cell) {
     constexpr std::uint64_t eighth = 0x330033;  // two bits along each axis
-    if (word == 0) return 2;
-    if ((word & eighth << ((x & 2) | (y & 2) << 2 | (z & 2) << 4)) == 0) return 1;
-    return (word & bit(x, y, z)) == 0 ? 0 : -1;
+    if ((word & eighth << ((cell.x & 2) | (cell.y & 2) << 2 | (cell.z & 2) << 4)) == 0) return 1;
+    return (word & bit(cell.x, cell.y, cell.z)) == 0 ? 0 : -1;
 }
 
-/// The doublings of the largest empty block around a cell; -1 when the cell itself belongs to the set.
-int BrickMap::empty_doublings(glm::ivec3 cell) const {
-    const Level* const levels[] = {&blocks_, &bricks_, &leaves_};
-    int empty = -1;
-    for (int doublings = 4; doublings >= 0 && empty < 0; doublings -= 2) {
-        const Level& level = *levels[2 - doublings / 2];
-        const int x = cell.x >> doublings, y = cell.y >> doublings, z = cell.z >> doublings;
-        empty = empty_in(level.words[level.at(x >> 2, y >> 2, z >> 2)], x, y, z);
-        if (empty >= 0) empty += doublings;
-    }
-    return empty;
+/// Returns where the ray leaves the empty cells around a cell, or the cell itself if it belongs to the set.
+double BrickMap::leaving_empty(glm::ivec3 cell, const Ray& ray, bool& is_empty) const {
+    const glm::ivec3 brick = cell >> brick_doublings;
+    const std::size_t place = at(brick.x, brick.y, brick.z);
+    is_empty = true;
+    if (const int far = far_[place]; far > 0)
+        return leaving(brick - (far - 1), brick + far, brick_doublings, ray);
+    const int doublings = empty_in(words_[place], cell);
+    is_empty = doublings >= 0;
+    const glm::ivec3 block = cell >> std::max(doublings, 0);
+    return leaving(block, block + 1, std::max(doublings, 0), ray);
 }
 
 std::optional<BrickMap::Crossing> BrickMap::next(const Ray& ray, double from, double to) const {
@@ -83,9 +114,10 @@ std::optional<BrickMap::Crossing> BrickMap::next(const Ray& ray, double from, do
         const glm::ivec3 cell = whole_below(p);
         const bool holds =
             p.x >= 0 && p.y >= 0 && p.z >= 0 && cell.x < cells_.x && cell.y < cells_.y && cell.z < cells_.z;
-        const int empty = holds ? empty_doublings(cell) : 0;
-        const double exit = std::max(t + nudge, leaving(cell, std::max(empty, 0), ray));
-        if (empty < 0) return Crossing{cell, {t, std::min(exit, to)}};
+        bool is_empty = true;
+        const double exit =
+            std::max(t + nudge, holds ? leaving_empty(cell, ray, is_empty) : leaving(cell, cell + 1, 0, ray));
+        if (!is_empty) return Crossing{cell, {t, std::min(exit, to)}};
         t = exit;
     }
     return std::nullopt;

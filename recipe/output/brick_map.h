@@ -9,8 +9,8 @@
 
 namespace lamella {
 
-/// Bits of 4 x 4 x 4 cells share a word; a bit of a word above stands for such a word that is not zero. Three
-/// levels: bricks of 4, 16 and 64 cells. Positions are in cells.
+/// Bits of 4 x 4 x 4 cells, a brick, share a word. For each empty brick the distance to the nearest one that
+/// is not is known. Positions are in cells.
 class BrickMap {
   public:
     /// Layers of cells that share words: different threads fill different slabs.
@@ -18,11 +18,8 @@ class BrickMap {
 
     explicit BrickMap(glm::ivec3 cells);
 
-    void insert(int x, int y, int z) {
-        const std::size_t brick = leaves_.at(x >> 2, y >> 2, z >> 2);
-        leaves_.words[brick] |= bit(x, y, z);
-    }
-    /// Marks the bricks that are not empty; called once after all cells are inserted.
+    void insert(int x, int y, int z) { words_[at(x >> 2, y >> 2, z >> 2)] |= bit(x, y, z); }
+    /// Finds the distances; called once after all cells are inserted.
     void finish();
 
     /// A ray with its reciprocal direction, which traversal needs at every step.
@@ -42,27 +39,22 @@ class BrickMap {
     std::optional<Crossing> next(const Ray& ray, double from, double to) const;
 
   private:
-    struct Level {
-        glm::ivec3 size{0};
-        std::vector<std::uint64_t> words;
-
-        explicit Level(glm::ivec3 n);
-        std::size_t at(int x, int y, int z) const {
-            return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) +
-                    static_cast<std::size_t>(y)) *
-                       static_cast<std::size_t>(size.x) +
-                   static_cast<std::size_t>(x);
-        }
-    };
+    std::size_t at(int x, int y, int z) const {
+        return (static_cast<std::size_t>(z) * static_cast<std::size_t>(bricks_.y) +
+                static_cast<std::size_t>(y)) *
+                   static_cast<std::size_t>(bricks_.x) +
+               static_cast<std::size_t>(x);
+    }
     static std::uint64_t bit(int x, int y, int z) {
         return std::uint64_t{1} << ((x & 3) | (y & 3) << 2 | (z & 3) << 4);
     }
-    static void mark_above(const Level& below, Level& above);
-    static int empty_in(std::uint64_t word, int x, int y, int z);
-    int empty_doublings(glm::ivec3 cell) const;
+    static int empty_in(std::uint64_t word, glm::ivec3 cell);
+    double leaving_empty(glm::ivec3 cell, const Ray& ray, bool& is_empty) const;
 
-    glm::ivec3 cells_;
-    Level leaves_, bricks_, blocks_;  ///< words of 4, 16 and 64 cells
+    glm::ivec3 cells_, bricks_;
+    std::vector<std::uint64_t> words_;
+    std::vector<std::uint8_t>
+        far_;  ///< bricks to the nearest that is not empty, along the axis where it is most
 };
 
 }  // namespace lamella
