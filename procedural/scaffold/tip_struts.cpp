@@ -15,7 +15,7 @@ namespace {
 
 constexpr int tilts = 4, turns = 16;
 constexpr double steps_in_a_radius = 8;
-constexpr double farthest_foot = 12;  // from its tip, in radii
+constexpr double farthest_foot = 12, farthest_aside = 6;  // from the tip, in radii
 
 /// Returns how far the part is from the tip in a direction, up to `reach`; nothing where the way leaves the
 /// body or ends in too little solid.
@@ -84,7 +84,7 @@ class LevelPaths {
             const auto [way, at] = open.top();
             open.pop();
             if (way > length[static_cast<std::size_t>(at)] || !(body.value(place(at)) <= 0)) continue;
-            if (is_goal(dvec2(place(at)))) return traced(at);
+            if (is_goal(place(at))) return traced(at);
             for (const glm::ivec2 turn : compass) {
                 const glm::ivec2 next = glm::ivec2(at % width_, at / width_) + turn;
                 if (std::min(next.x, next.y) < 0 || std::max(next.x, next.y) >= width_) continue;
@@ -134,6 +134,23 @@ std::vector<dvec3> straightened(const std::vector<dvec3>& way, const Field& body
     return bends;
 }
 
+/// Returns struts along the shortest level way from a tip to a place that `is_goal` accepts, at most this
+/// many radii long; none where there is no such way.
+template <class Goal>
+std::vector<Beam> level_legs(dvec3 tip, const Field& body, const TipStrutOptions& options, double farthest,
+                             const Goal& is_goal) {
+    const double step = options.radius / steps_in_a_radius;
+    LevelPaths paths(tip, step, std::min(options.reach, farthest * options.radius));
+    const auto way = paths.to_nearest(body, is_goal);
+    if (way.empty()) return {};
+    const std::vector<dvec3> bends = straightened(way, body, step);
+    std::vector<Beam> legs;
+    legs.reserve(bends.size() - 1);
+    for (std::size_t i = 0; i + 1 < bends.size(); ++i)
+        legs.push_back({bends[i], options.radius, bends[i + 1], options.radius});
+    return legs;
+}
+
 }  // namespace
 
 std::optional<Beam> strut_below(dvec3 tip, const Field& part, const Field& body,
@@ -159,20 +176,25 @@ std::optional<Beam> strut_below(dvec3 tip, const Field& part, const Field& body,
 std::vector<Beam> struts_to_bed(dvec3 tip, double first_plane, const Field& body,
                                 const TipStrutOptions& options) {
     if (tip.z - first_plane > 0.5 * options.radius) return {};
-    const double bed = first_plane - 0.5 * options.layer_height;
-    const double step = options.radius / steps_in_a_radius;
-    LevelPaths paths(tip, step, std::min(options.reach, farthest_foot * options.radius));
-    const auto way = paths.to_nearest(
-        body, [&](dvec2 place) { return stands_on_bed(place, first_plane, body, 0.5 * step); });
-    if (way.empty()) return {};
-    const std::vector<dvec3> bends = straightened(way, body, step);
-    std::vector<Beam> legs;
-    legs.reserve(bends.size() - 1);
-    for (std::size_t i = 0; i + 1 < bends.size(); ++i)
-        legs.push_back({bends[i], options.radius, bends[i + 1], options.radius});
-    legs.back().b.z = bed;
+    const double around = 0.5 * options.radius / steps_in_a_radius;
+    std::vector<Beam> legs = level_legs(tip, body, options, farthest_foot, [&](dvec3 place) {
+        return stands_on_bed(dvec2(place), first_plane, body, around);
+    });
+    if (legs.empty()) return {};
+    legs.back().b.z = first_plane - 0.5 * options.layer_height;
     legs.back().rb = 0.5 * options.radius;
     return legs;
+}
+
+std::vector<Beam> struts_aside(dvec3 tip, const Field& part, const Field& body,
+                               const TipStrutOptions& options) {
+    const auto stands = [&](dvec3 place) {
+        for (double below = 0; below < options.radius; below += options.layer_height) {
+            if (!(part.value(place - dvec3(0, 0, below)) <= 0)) return false;
+        }
+        return true;
+    };
+    return level_legs(tip, body, options, farthest_aside, stands);
 }
 
 }  // namespace lamella

@@ -72,8 +72,10 @@ void hold_tips(const Recipe& recipe, BuiltJob& built, RepairReport& report, doub
     std::vector<FieldPtr> solids;
     for (const dvec3 tip : report.tips->begins) {
         const auto below = strut_below(tip, *built.job.part, *body, options);
-        const std::vector<Beam> legs =
-            below ? std::vector{*below} : struts_to_bed(tip, built.job.plane(0), *body, options);
+        std::vector<Beam> legs;
+        if (below) legs.push_back(*below);
+        if (legs.empty()) legs = struts_to_bed(tip, built.job.plane(0), *body, options);
+        if (legs.empty()) legs = struts_aside(tip, *built.job.part, *body, options);
         for (const Beam& leg : legs) {
             report.holds.push_back(leg);
             solids.push_back(make_round_cone(leg));

@@ -117,4 +117,24 @@ TEST_CASE("a strut to the bed goes round a corner of the body in legs", "[suppor
     CHECK(struts_to_bed(tip, first_plane, *make_difference(body, slit), TipStrutOptions()).empty());
 }
 
+TEST_CASE("a strut goes aside to solid that stands", "[supports]") {
+    // A tab that begins at 3 in the air, a column 1 mm beside it, and a nearer piece that hangs as well.
+    const FieldPtr tab = make_box({{-1, -1, 3}, {1, 1, 4}});
+    const FieldPtr column = make_box({{2, -1, -1}, {4, 1, 4}});
+    const FieldPtr hanging = make_box({{-3, -1, 2.9}, {-2, 1, 4}});
+    const FieldPtr part = make_union({tab, column, hanging});
+    const auto legs = struts_aside(tip, *part, *body, TipStrutOptions());
+    REQUIRE(legs.size() == 1);
+    CHECK(legs[0].a == tip);
+    CHECK(legs[0].b.x == Approx(2).margin(0.051));
+    CHECK(std::abs(legs[0].b.y) < 1e-9);
+    CHECK(legs[0].b.z == tip.z);
+    CHECK(legs[0].rb == 0.4);
+    // Too far, nothing that stands, or a gap in the body on the way.
+    CHECK(struts_aside(tip, *part, *body, {.radius = 0.4, .reach = 1.9}).empty());
+    CHECK(struts_aside(tip, *make_union({tab, hanging}), *body, TipStrutOptions()).empty());
+    const FieldPtr slit = make_box({{1.5, -20, -2}, {1.7, 20, 20}});
+    CHECK(struts_aside(tip, *part, *make_difference(body, slit), TipStrutOptions()).empty());
+}
+
 }  // namespace tip_struts_test
