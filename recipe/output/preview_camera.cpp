@@ -63,6 +63,10 @@ void zoom_to(PreviewCamera& camera, std::span<const dvec3> points, const Preview
 
 PreviewCut cut_plane(const Box& bounds, const PreviewOptions& options) {
     PreviewCut plane;
+    if (options.printed_to) {
+        if (*options.printed_to < bounds.hi.z) plane = {2, *options.printed_to, 1};
+        return plane;
+    }
     if (options.cut < 'x' || options.cut > 'z') return plane;
     plane.axis = options.cut - 'x';
     plane.at = bounds.lo[plane.axis] + options.cut_at * bounds.size()[plane.axis];

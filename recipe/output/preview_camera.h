@@ -25,7 +25,7 @@ PreviewCamera camera_before(const Box& bounds, const PreviewOptions& options);
 /// Turns the camera and narrows its view until these points just fit the picture.
 void zoom_to(PreviewCamera& camera, std::span<const dvec3> points, const PreviewOptions& options);
 
-/// Returns the plane of the cut, mm: the part on the eye's side of it is removed.
+/// Returns the plane of the cut, mm: the part on the eye's side of it is removed, or what is not printed.
 PreviewCut cut_plane(const Box& bounds, const PreviewOptions& options);
 
 /// Returns what the cut leaves of the bounds.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/base/geometry.h"
 
@@ -15,6 +16,9 @@ struct PreviewOptions {
     char cut = 'x';         ///< axis along which the side towards the eye is cut away: 'x', 'y', 'z', or '-'
                             ///< for none
     double cut_at = 0.5;    ///< position of the cut, as a share of the bounds along that axis
+    /// Height of what is printed so far, mm in part coordinates: only what lies below is shown, at the scale
+    /// of the whole part, and `cut` does not count.
+    std::optional<double> printed_to{};
     /// Shows the bounds at the same scale from every direction and whatever is cut away, for frames of an
     /// orbit; otherwise what is seen just fits the picture.
     bool steady = false;

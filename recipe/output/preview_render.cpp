@@ -31,7 +31,7 @@ std::vector<dvec3> kept_places(const std::vector<dvec3>& places, const Box& kept
 Box region_of(const Box& bounds, const PreviewOptions& options) {
     const PreviewCut cut = cut_plane(bounds, options);
     const Box kept = kept_by(cut, bounds);
-    if (cut.axis < 0) return bounds;
+    if (cut.axis < 0 || options.printed_to) return bounds;
     const dvec3 size = kept.size();
     const double apron = beyond_cut * std::max({size.x, size.y, size.z}) /
                          cells_along(std::max(options.width, options.height));
@@ -69,8 +69,9 @@ std::shared_ptr<const CutFace> PreviewScene::face_of(const PreviewCut& plane,
 Picture PreviewScene::draw(const PreviewOptions& view, const CancelToken* cancel) const {
     const PreviewCut cut = cut_plane(bounds_, view);
     const Box kept = kept_by(cut, bounds_);
-    PreviewCamera camera = camera_before(view.steady ? bounds_ : kept, view);
-    if (!view.steady) zoom_to(camera, kept_places(places_, kept), view);
+    const Box& shown = view.steady || view.printed_to ? bounds_ : kept;
+    PreviewCamera camera = camera_before(shown, view);
+    if (!view.steady) zoom_to(camera, kept_places(places_, shown), view);
     const PreviewView seen(*grid_, face_of(cut, cancel), cut, camera, bounds_, view);
     Picture picture{view.width, view.height, {}};
     picture.rgb.resize(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height) * 3);

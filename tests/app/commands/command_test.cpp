@@ -259,6 +259,23 @@ TEST_CASE("a section through a ball's centre is a disc in every format") {
     CHECK(mentions(missed.err, "--z: 3.5 misses the part; accepted: a height from -3 to 3 mm"));
 }
 
+TEST_CASE("a preview by layers is a folder of pictures of the growing part") {
+    const Folder folder;
+    const std::string preview = "preview --shape sphere --shape-radius 5 --layer-height 0.1 --size 64 -q ";
+    REQUIRE(run_lamella(preview + "--layers 3 -o " + folder / "grown").code == 0);
+    for (const char* name : {"0001.png", "0002.png", "0003.png"})
+        CHECK(std::filesystem::is_regular_file(folder / "grown/" + name));
+    CHECK(!std::filesystem::exists(folder / "grown/0004.png"));
+    REQUIRE(run_lamella(preview + "--cut none -o " + folder / "whole.png").code == 0);
+    CHECK(contents(folder / "grown/0003.png") == contents(folder / "whole.png"));
+    CHECK(contents(folder / "grown/0001.png") != contents(folder / "grown/0002.png"));
+    const Outcome many = run_lamella(preview + "--layers 101 -o " + folder / "many");
+    CHECK(many.code == 2);
+    CHECK(mentions(many.err, "--layers: 101 pictures; accepted: at most 100, one after each layer"));
+    CHECK(!std::filesystem::exists(folder / "many"));
+    CHECK(run_lamella(preview + "--layers 3 --cut x -o " + folder / "many").code == 2);
+}
+
 TEST_CASE("a preview is a picture with the part in its middle") {
     const Folder folder;
     REQUIRE(run_lamella("preview " + ball + "--size 64 --cut none -o " + folder / "ball.png").code == 0);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "engine/solids/csg.h"
 #include "engine/solids/primitives.h"
 
 namespace preview_render_test {
@@ -251,6 +252,36 @@ TEST_CASE("a picture does not change with the number of threads", "[preview]") {
         options.threads = threads;
         CHECK(render_preview(make_box(slab), make_box(wall), whole, options).rgb == one.rgb);
     }
+}
+
+TEST_CASE("a picture of what is printed has the scale of the whole part", "[preview]") {
+    const FieldPtr part = make_union({make_box(slab), make_box(wall)});
+    PreviewOptions view = from_the_front('x');  // the cut does not count
+    const auto printed_to = [&](double z) {
+        view.printed_to = z;
+        return render_preview(part, nullptr, whole, view);
+    };
+    const auto rows_of = [](const Picture& image) {
+        int first = image.height, last = -1;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                if (kind_at(image, x, y) == Kind::ground) continue;
+                first = std::min(first, y);
+                last = y;
+            }
+        }
+        return last - first + 1;
+    };
+    // Nothing is above the whole part: its picture, but for the face where it ends.
+    CHECK(printed_to(20).rgb == render_preview(part, nullptr, whole, from_the_front('-')).rgb);
+    const int all = rows_of(printed_to(20));
+    const Picture half = printed_to(7);
+    CHECK(count(half, Kind::cut) > 0);
+    CHECK(count(half, Kind::part) > 50);
+    CHECK(rows_of(half) == Approx(all / 2.0).margin(0.12 * all));
+    CHECK(rows_of(printed_to(3.5)) < 0.7 * rows_of(half));
+    // The slab is not there yet, so that nothing is right of the wall.
+    for (int y = 0; y < half.height; ++y) CHECK(kind_at(half, 3 * half.width / 4, y) == Kind::ground);
 }
 
 }  // namespace preview_render_test
