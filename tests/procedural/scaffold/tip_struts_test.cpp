@@ -93,13 +93,13 @@ TEST_CASE("a strut to the bed goes round a corner of the body in legs", "[suppor
     // An L whose far end alone stands on the bed, and the same with a slit through its second arm.
     const FieldPtr arms =
         make_union({make_box({{-1, -1, 0.05}, {3, 1.02, 5}}), make_box({{1.98, -1, 0.05}, {3, 3, 5}})});
-    const FieldPtr body = make_union({arms, make_box({{1.98, 1.98, -1}, {3, 3, 5}})});
+    const FieldPtr bent = make_union({arms, make_box({{1.98, 1.98, -1}, {3, 3, 5}})});
     constexpr double first_plane = 0.025;
-    const dvec3 tip{0, 0.5, 0.075};
-    const auto legs = struts_to_bed(tip, first_plane, *body, TipStrutOptions());
+    const dvec3 foot{0, 0.5, 0.075};
+    const auto legs = struts_to_bed(foot, first_plane, *bent, TipStrutOptions());
     REQUIRE(legs.size() >= 2);
     REQUIRE(legs.size() <= 3);  // the grid may have two bends at the corner
-    CHECK(legs.front().a == tip);
+    CHECK(legs.front().a == foot);
     CHECK(legs.back().b.y == Approx(2).margin(0.051));
     CHECK(legs.back().b.z == Approx(0));
     CHECK(legs.back().rb == 0.2);
@@ -109,12 +109,12 @@ TEST_CASE("a strut to the bed goes round a corner of the body in legs", "[suppor
         if (i + 1 == legs.size()) continue;
         CHECK(legs[i].b == legs[i + 1].a);
         CHECK(legs[i].rb == 0.4);
-        CHECK(legs[i].b.z == tip.z);
+        CHECK(legs[i].b.z == foot.z);
         CHECK(glm::length(dvec2(legs[i].b) - dvec2(2, 1)) < 0.12);  // the inner corner
     }
     CHECK(length == Approx(std::hypot(2, 0.5) + 1).margin(0.15));
     const FieldPtr slit = make_box({{1, 1.4, -2}, {4, 1.6, 6}});
-    CHECK(struts_to_bed(tip, first_plane, *make_difference(body, slit), TipStrutOptions()).empty());
+    CHECK(struts_to_bed(foot, first_plane, *make_difference(bent, slit), TipStrutOptions()).empty());
 }
 
 TEST_CASE("a strut goes aside to solid that stands", "[supports]") {
