@@ -48,8 +48,9 @@ LineSettings LayerBeads::line(const Layer& layer) const {
 Toolpaths LayerBeads::fill(const Layer& layer, const std::vector<Contour>& contours, double density,
                            const LayerNeighborhood& around) const {
     const ToolpathProfile& t = profile_.toolpath;
-    return plan_toolpaths(contours, {line(layer), t.walls, density, t.infill, t.seam}, layer.index(), around,
-                          layer.cancel());
+    return plan_toolpaths(contours,
+                          {line(layer), t.walls, density, t.infill, t.seam, profile_.gcode.retract_from},
+                          layer.index(), around, layer.cancel());
 }
 
 /// Returns the layer below; empty for the first layer.
@@ -85,7 +86,9 @@ Toolpaths LayerBeads::tower_piece(const Layer& layer, const Rect& rect, double d
     const bool is_first = layer.level() == 0;  // which holds the tower to the bed
     const std::vector<Contour> contours{{corners(rect), -1, false}};
     Toolpaths paths;
-    append(plan_toolpaths(contours, {line(layer), 1, is_first ? 1 : density, InfillPattern::lines, t.seam},
+    append(plan_toolpaths(contours,
+                          {line(layer), 1, is_first ? 1 : density, InfillPattern::lines, t.seam,
+                           profile_.gcode.retract_from},
                           layer.index(), {}, layer.cancel()),
            paths, Role::purge_tower);
     return paths;

@@ -38,14 +38,6 @@ std::size_t start_of(const std::vector<dvec2>& points, Seam seam, dvec2 from) {
     return best;
 }
 
-void begin_at(Bead& loop, std::size_t point) {
-    const auto by = static_cast<std::ptrdiff_t>(point);
-    std::rotate(loop.points.begin(), loop.points.begin() + by, loop.points.end());
-    if (!loop.widths.empty()) std::rotate(loop.widths.begin(), loop.widths.begin() + by, loop.widths.end());
-}
-
-dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
-
 /// Returns the nearest few neighbours of each point, by a grid with about two points per cell.
 std::vector<std::vector<std::uint32_t>> neighbours_of(std::span<const dvec2> points) {
     constexpr std::size_t wanted = 8;
@@ -87,6 +79,14 @@ std::vector<std::vector<std::uint32_t>> neighbours_of(std::span<const dvec2> poi
 
 }  // namespace
 
+dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
+
+void begin_at(Bead& loop, std::size_t point) {
+    const auto by = static_cast<std::ptrdiff_t>(point);
+    std::rotate(loop.points.begin(), loop.points.begin() + by, loop.points.end());
+    if (!loop.widths.empty()) std::rotate(loop.widths.begin(), loop.widths.begin() + by, loop.widths.end());
+}
+
 void append_nearest(std::span<Bead> beads, Seam seam, dvec2& at, std::vector<Bead>& out) {
     std::vector<dvec2> ends;  // two per bead; a loop may begin anywhere, its first point stands for it
     for (const Bead& bead : beads) {
@@ -110,7 +110,7 @@ void append_nearest(std::span<Bead> beads, Seam seam, dvec2& at, std::vector<Bea
     }
 }
 
-std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) {
+std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start, const TourCost& cost) {
     const std::size_t n = points.size();
     std::vector<std::size_t> tour;
     tour.reserve(n);
@@ -123,14 +123,15 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
     const auto neighbours = neighbours_of(points);
     std::vector<std::size_t> place(n);
     for (std::size_t i = 0; i < n; ++i) place[tour[i]] = i;
-    const auto length = [&](dvec2 a, dvec2 b) { return std::sqrt(squared_distance(a, b)); };
-    const auto before = [&](std::size_t i) { return i == 0 ? start : points[tour[i - 1]]; };
+    constexpr double min_gain = 1e-6;  // mm
+    const auto edge = [&](std::size_t a, std::size_t b) {
+        return cost ? cost(a, b) : std::sqrt(squared_distance(a == n ? start : points[a], points[b]));
+    };
+    const auto before = [&](std::size_t i) { return i == 0 ? n : tour[i - 1]; };
     // Reversing [i, j] replaces the edges into i and out of j. The last point has no edge out.
     const auto gain = [&](std::size_t i, std::size_t j) {
-        double saved = length(before(i), points[tour[i]]) - length(before(i), points[tour[j]]);
-        if (j + 1 < n)
-            saved +=
-                length(points[tour[j]], points[tour[j + 1]]) - length(points[tour[i]], points[tour[j + 1]]);
+        double saved = edge(before(i), tour[i]) - edge(before(i), tour[j]);
+        if (j + 1 < n) saved += edge(tour[j], tour[j + 1]) - edge(tour[i], tour[j + 1]);
         return saved;
     };
     const auto turn = [&](std::size_t i, std::size_t j) {
@@ -138,9 +139,26 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
                      tour.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         for (std::size_t k = i; k <= j; ++k) place[tour[k]] = k;
     };
+    // Moving p behind q joins its neighbours, and breaks the edge out of q; nothing follows the last point.
+    const auto detour = [&](std::size_t from, std::size_t by, std::size_t place_after) {
+        if (place_after >= n) return edge(from, by);
+        return edge(from, by) + edge(by, tour[place_after]) - edge(from, tour[place_after]);
+    };
+    const auto move_behind = [&](std::size_t p, std::size_t q) {
+        const std::size_t from = place[p], behind = place[q];
+        if (behind + 1 == from || behind == from) return false;
+        const std::size_t after = behind + 1;
+        if (!(detour(before(from), p, from + 1) - detour(q, p, after) > min_gain)) return false;
+        const auto at = [&](std::size_t i) { return tour.begin() + static_cast<std::ptrdiff_t>(i); };
+        if (from < behind)
+            std::rotate(at(from), at(from + 1), at(behind + 1));
+        else
+            std::rotate(at(after), at(from), at(from + 1));
+        for (std::size_t k = std::min(from, after); k <= std::max(from, behind); ++k) place[tour[k]] = k;
+        return true;
+    };
     // Reversal costs as much as the stretch is long, so large sets of points only get shorter stretches.
     const std::size_t longest = std::max<std::size_t>(1000, 1'000'000 / n);
-    constexpr double min_gain = 1e-6;  // mm
     constexpr int max_rounds = 20;
     for (int round = 0; round < max_rounds; ++round) {
         bool shorter = false;
@@ -148,6 +166,10 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start) 
             for (const std::uint32_t q : neighbours[p]) {
                 const std::size_t a = std::min(place[p], place[q]), b = std::max(place[p], place[q]);
                 if (b - a > longest) continue;
+                if (move_behind(p, q)) {
+                    shorter = true;
+                    continue;
+                }
                 // To make p and q adjacent, reverse the stretch between them, including the later or the
                 // earlier of both.
                 if (a + 1 <= b && gain(a + 1, b) > min_gain) {

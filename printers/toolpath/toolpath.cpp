@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "printers/polygons/polygons.h"
-#include "printers/toolpath/bead_order.h"
 #include "printers/toolpath/hanging_beads.h"
 #include "printers/toolpath/island_planner.h"
+#include "printers/toolpath/island_tour.h"
 
 namespace lamella {
 namespace {
@@ -36,7 +36,7 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
     result.islands = static_cast<int>(islands.size());
     std::vector<std::vector<Bead>> planned;
     std::vector<const Polygons*> outlines;
-    std::vector<dvec2> entries;
+    std::vector<IslandStop> stops;
     Rect all;
     IslandPlanner planner(settings, layer_index, around, cancel);
     for (const Polygons& island : islands) {
@@ -47,25 +47,24 @@ Toolpaths plan_toolpaths(const std::vector<Contour>& contours, const ToolpathSet
             ++result.islands_left_out;
             continue;
         }
-        entries.push_back(beads.front().points.front());
+        stops.emplace_back(beads);
         planned.push_back(std::move(beads));
         outlines.push_back(&island);
     }
     dvec2 at = all.lo;
     int number = 0;
-    for (const std::size_t next : short_tour(entries, at)) {
+    const TravelCost cost{settings.retract_from};
+    const std::vector<std::size_t> tour = island_tour(stops, at, cost);
+    for (std::size_t place = 0; place < tour.size(); ++place) {
         stop_if_cancelled(cancel);
-        std::vector<Bead>& beads = planned[next];
+        const std::size_t here = tour[place];
+        std::vector<Bead>& beads = planned[here];
         for (Bead& bead : beads) bead.island = number;
         ++number;
-        result.outlines.push_back(beads.size() > 1 ? simplified(*outlines[next], settings.line.tolerance / 2)
+        result.outlines.push_back(beads.size() > 1 ? simplified(*outlines[here], settings.line.tolerance / 2)
                                                    : Polygons());
-        // Walls are printed before infill, because they hold it.
-        const auto infill =
-            std::stable_partition(beads.begin(), beads.end(), [](const Bead& bead) { return bead.closed; });
-        const auto walls = static_cast<std::size_t>(infill - beads.begin());
-        append_nearest(std::span(beads).first(walls), settings.seam, at, result.beads);
-        append_nearest(std::span(beads).subspan(walls), settings.seam, at, result.beads);
+        const IslandStop* const next = place + 1 < tour.size() ? &stops[tour[place + 1]] : nullptr;
+        append_island(beads, settings.seam, next, cost, at, result.beads);
     }
     stop_if_cancelled(cancel);
     if (around.footing) result.beads = cut_hanging(result.beads, *around.footing);
