@@ -1,4 +1,4 @@
-// Nearest-neighbour tours, improved by 2-opt.
+// Nearest-neighbour tours, improved by 2-opt and by moving single points.
 #include "printers/toolpath/bead_order.h"
 
 #include <algorithm>
@@ -157,28 +157,39 @@ std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start, 
         for (std::size_t k = std::min(from, after); k <= std::max(from, behind); ++k) place[tour[k]] = k;
         return true;
     };
+    // Only neighbours nearer than one of p's two on the tour are tried: a gain needs a cheaper edge at one of
+    // its ends.
+    const auto edge_to_beat = [&](std::size_t p) {
+        const std::size_t at = place[p];
+        return std::max(edge(before(at), p), at + 1 < n ? edge(p, tour[at + 1]) : 0.0);
+    };
     // Reversal costs as much as the stretch is long, so large sets of points only get shorter stretches.
     const std::size_t longest = std::max<std::size_t>(1000, 1'000'000 / n);
+    const auto join = [&](std::size_t p, std::size_t q) {
+        const std::size_t a = std::min(place[p], place[q]), b = std::max(place[p], place[q]);
+        if (b - a > longest) return false;
+        if (move_behind(p, q)) return true;
+        // To make p and q adjacent, reverse the stretch between them, including the later or the earlier of
+        // both.
+        if (a + 1 <= b && gain(a + 1, b) > min_gain) {
+            turn(a + 1, b);
+            return true;
+        }
+        if (b >= 1 && a <= b - 1 && gain(a, b - 1) > min_gain) {
+            turn(a, b - 1);
+            return true;
+        }
+        return false;
+    };
     constexpr int max_rounds = 20;
     for (int round = 0; round < max_rounds; ++round) {
         bool shorter = false;
         for (std::size_t p = 0; p < n; ++p) {
+            double to_beat = edge_to_beat(p);
             for (const std::uint32_t q : neighbours[p]) {
-                const std::size_t a = std::min(place[p], place[q]), b = std::max(place[p], place[q]);
-                if (b - a > longest) continue;
-                if (move_behind(p, q)) {
-                    shorter = true;
-                    continue;
-                }
-                // To make p and q adjacent, reverse the stretch between them, including the later or the
-                // earlier of both.
-                if (a + 1 <= b && gain(a + 1, b) > min_gain) {
-                    turn(a + 1, b);
-                    shorter = true;
-                } else if (b >= 1 && a <= b - 1 && gain(a, b - 1) > min_gain) {
-                    turn(a, b - 1);
-                    shorter = true;
-                }
+                if (!(edge(p, q) < to_beat) || !join(p, q)) continue;
+                shorter = true;
+                to_beat = edge_to_beat(p);
             }
         }
         if (!shorter) break;

@@ -14,10 +14,11 @@ double length_between(dvec2 a, dvec2 b) {
     return std::sqrt(d.x * d.x + d.y * d.y);
 }
 
-/// Returns the distance between the nearest places of two islands; that of their circles if they are far.
-double gap(const IslandStop& a, const IslandStop& b, double far) {
+/// Returns the distance between the nearest places of two islands; that of their circles if it is more than
+/// `near`: then it is all that a tour needs to know.
+double gap(const IslandStop& a, const IslandStop& b, double near) {
     const double apart = length_between(a.center, b.center) - a.radius - b.radius;
-    if (apart > far) return apart;
+    if (apart > near) return apart;
     double least = infinity;
     for (const dvec2 place : a.places) least = std::min(least, b.distance(place));
     return least;
@@ -91,10 +92,9 @@ std::vector<std::size_t> island_tour(const std::vector<IslandStop>& islands, dve
     std::vector<dvec2> centers;
     centers.reserve(islands.size());
     for (const IslandStop& island : islands) centers.push_back(island.center);
-    const double far = 2 * cost.retract_from;
     return short_tour(centers, start, [&](std::size_t a, std::size_t b) {
         if (a == islands.size()) return cost(islands[b].distance(start));
-        return cost(gap(islands[a], islands[b], far));
+        return cost(gap(islands[a], islands[b], cost.retract_from));
     });
 }
 
