@@ -200,29 +200,107 @@ SurfacePattern::SurfacePattern(SurfaceBricks bricks) : bricks_(std::move(bricks)
     for (std::uint32_t i = 0; i < bricks_.bricks.size(); ++i) places_.emplace(bricks_.bricks[i].corner, i);
 }
 
-double SurfacePattern::value_near(dvec3 p, std::uint32_t& hint) const {
-    const dvec3 at = p / bricks_.spacing, floor = glm::floor(at), share = at - floor;
-    // Away from the surface, the shell alone decides.
-    constexpr double solid = -std::numeric_limits<double>::min(), farthest = 1e15;
-    if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest)) return solid;
-    const glm::i64vec3 cell(floor), corner(cell.x >> 3, cell.y >> 3, cell.z >> 3);
+const PatternBrick* SurfacePattern::brick_of(glm::i64vec3 cell, std::uint32_t& hint) const {
+    const glm::i64vec3 corner(cell.x >> 3, cell.y >> 3, cell.z >> 3);
     if (hint >= bricks_.bricks.size() || bricks_.bricks[hint].corner != corner) {
         const auto found = places_.find(corner);
-        if (found == places_.end()) return solid;
+        if (found == places_.end()) return nullptr;
         hint = found->second;
     }
+    return &bricks_.bricks[hint];
+}
+
+namespace {
+
+constexpr double farthest_cell = 1e15;
+
+/// The samples at the corners of a cell: x varies fastest.
+std::array<double, 8> corners_of(const PatternBrick& brick, glm::i64vec3 cell) {
     const std::int16_t* const steps =
-        &bricks_.bricks[hint]
-             .steps[static_cast<std::size_t>((cell.x & 7) + side * ((cell.y & 7) + side * (cell.z & 7)))];
-    double sum = 0;
-    for (int k = 0; k < 8; ++k) {
-        const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
-        const std::int16_t step = steps[x + side * (y + side * z)];
-        if (step == PatternBrick::no_sample) return solid;
-        sum += (x != 0 ? share.x : 1 - share.x) * (y != 0 ? share.y : 1 - share.y) *
-               (z != 0 ? share.z : 1 - share.z) * step;
+        &brick.steps[static_cast<std::size_t>((cell.x & 7) + side * ((cell.y & 7) + side * (cell.z & 7)))];
+    std::array<double, 8> corners{};
+    for (int k = 0; k < 8; ++k)
+        corners[static_cast<std::size_t>(k)] = steps[(k & 1) + side * ((k >> 1 & 1) + side * (k >> 2))];
+    return corners;
+}
+
+bool has_gap(const std::array<double, 8>& corners) {
+    return std::ranges::find(corners, double{PatternBrick::no_sample}) != corners.end();
+}
+
+double interpolated(const std::array<double, 8>& corners, dvec3 share) {
+    const auto along = [&](std::size_t c) { return corners[c] + (corners[c + 1] - corners[c]) * share.x; };
+    const double low = along(0) + (along(2) - along(0)) * share.y;
+    const double high = along(4) + (along(6) - along(4)) * share.y;
+    return low + (high - low) * share.z;
+}
+
+/// Returns how many cells of a brick beyond this one along an axis have corners of the one sign that its own
+/// have.
+int cells_alike(const PatternBrick& brick, glm::i64vec3 cell, int axis, bool ascending) {
+    constexpr std::array<int, 3> strides{1, side, side * side};
+    const int stride = strides[static_cast<std::size_t>(axis)];
+    const int a = strides[static_cast<std::size_t>((axis + 1) % 3)],
+              b = strides[static_cast<std::size_t>((axis + 2) % 3)];
+    const std::int16_t* corner =
+        brick.steps.data() + (cell.x & 7) + side * (cell.y & 7) + std::ptrdiff_t{side} * side * (cell.z & 7);
+    const int place = static_cast<int>(cell[axis] & 7);
+    const int cells = ascending ? PatternBrick::cells - 1 - place : place;
+    const std::ptrdiff_t onward = ascending ? stride : -stride;
+    if (ascending) corner += stride;  // of the face beyond which the next cell lies
+    const bool is_solid = *corner > 0;
+    const auto differs = [&](std::int16_t step) {
+        return (step > 0) != is_solid || step == PatternBrick::no_sample;
+    };
+    for (int alike = 0; alike < cells; ++alike) {
+        corner += onward;
+        if (differs(corner[0]) || differs(corner[a]) || differs(corner[b]) || differs(corner[a + b]))
+            return alike;
     }
-    return -sum * bricks_.unit / bricks_.slope;
+    return cells;
+}
+
+bool is_near(dvec3 at) { return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest_cell; }
+
+// Away from the surface, the shell alone decides.
+constexpr double solid = -std::numeric_limits<double>::min();
+
+}  // namespace
+
+double SurfacePattern::value_near(dvec3 p, std::uint32_t& hint) const {
+    const dvec3 at = p / bricks_.spacing, floor = glm::floor(at);
+    if (!is_near(at)) return solid;
+    const glm::i64vec3 cell(floor);
+    const PatternBrick* const brick = brick_of(cell, hint);
+    if (brick == nullptr) return solid;
+    const std::array<double, 8> corners = corners_of(*brick, cell);
+    return has_gap(corners) ? solid : -interpolated(corners, at - floor) * bricks_.unit / bricks_.slope;
+}
+
+WindowPattern::Stretch SurfacePattern::stretch_near(dvec3 p, int axis, bool ascending,
+                                                    std::uint32_t& hint) const {
+    const dvec3 at = p / bricks_.spacing, floor = glm::floor(at), share = at - floor;
+    if (!is_near(at)) return {solid, 0};
+    const double left = (ascending ? 1 - share[axis] : share[axis]) * bricks_.spacing;  // of the cell
+    const glm::i64vec3 cell(floor);
+    const PatternBrick* const brick = brick_of(cell, hint);
+    if (brick == nullptr) return {solid, left};
+    const std::array<double, 8> corners = corners_of(*brick, cell);
+    if (has_gap(corners)) return {solid, left};
+    const double sum = interpolated(corners, share), value = -sum * bricks_.unit / bricks_.slope;
+    const auto [least, most] = std::ranges::minmax(corners);
+    if (least > 0 || most <= 0) {
+        const double onward = bricks_.spacing * cells_alike(*brick, cell, axis, ascending);
+        return {value, std::max(left + onward, std::abs(value))};
+    }
+    const std::size_t next = std::size_t{1} << static_cast<unsigned>(axis);
+    double steepest = 0;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        if ((c & next) == 0) steepest = std::max(steepest, std::abs(corners[c + next] - corners[c]));
+    }
+    const double same =
+        steepest * left > std::abs(sum) * bricks_.spacing ? std::abs(sum) * bricks_.spacing / steepest : left;
+    return {value, std::max(same, std::abs(value))};
 }
 
 }  // namespace lamella

@@ -72,9 +72,14 @@ class SurfacePattern : public WindowPattern {
     explicit SurfacePattern(SurfaceBricks bricks);
 
     double value_near(dvec3 p, std::uint32_t& hint) const override;
+    /// The sign stays to the end of a cell whose corners have one sign, and else as far as the corners'
+    /// differences allow.
+    Stretch stretch_near(dvec3 p, int axis, bool ascending, std::uint32_t& hint) const override;
     const SurfaceBricks& bricks() const { return bricks_; }
 
   private:
+    const PatternBrick* brick_of(glm::i64vec3 cell, std::uint32_t& hint) const;
+
     SurfaceBricks bricks_;
     std::unordered_map<glm::i64vec3, std::uint32_t, LatticeHash> places_;  ///< of bricks, by their corner
 };

@@ -1,5 +1,5 @@
-// Cuts the shell's runs by windows in closed form, or walks along them in steps as long as the pattern's
-// value allows.
+// Cuts the shell's runs by windows in closed form, or walks along them in steps as long as the pattern
+// allows.
 #include "procedural/skin/window_pattern.h"
 
 #include <algorithm>
@@ -20,7 +20,11 @@ constexpr int chords = 6;           // rounds of interpolation before bisection
 class LineWalk {
   public:
     LineWalk(const WindowPattern& pattern, const RowBand& band, double z)
-        : pattern_(pattern), band_(band), z_(z), step_(std::abs(band.along_pitch) / 4) {}
+        : pattern_(pattern),
+          band_(band),
+          z_(z),
+          step_(std::abs(band.along_pitch) / 4),
+          axis_(band.axis == Axis::x ? 0 : 1) {}
 
     /// Appends the solid parts of the runs of a line.
     void cut(int line, std::span<const Run> runs, RunRows& out) {
@@ -36,12 +40,14 @@ class LineWalk {
         return band_.axis == Axis::x ? dvec3(along, across_, z_) : dvec3(across_, along, z_);
     }
     double value(double u) { return pattern_.value_near(point(band_.along(u)), hint_); }
+    WindowPattern::Stretch stretch(double u) {
+        return pattern_.stretch_near(point(band_.along(u)), axis_, band_.along_pitch > 0, hint_);
+    }
 
     bool cut_closed(const Run& run, RunRows& out) {
         const double a = band_.along(run.begin), b = band_.along(run.end);
         windows_.clear();
-        const int axis = band_.axis == Axis::x ? 0 : 1;
-        if (!pattern_.windows_on(point(a), axis, {std::min(a, b), std::max(a, b)}, hint_, windows_))
+        if (!pattern_.windows_on(point(a), axis_, {std::min(a, b), std::max(a, b)}, hint_, windows_))
             return false;
         if (b < a) std::ranges::reverse(windows_);
         std::int32_t from = run.begin;
@@ -58,21 +64,21 @@ class LineWalk {
         // Count quarters from the band's origin, so that runs do not depend on how lines are split.
         std::int32_t u = run.begin >= 0 ? run.begin / quarter * quarter
                                         : -((-run.begin + quarter - 1) / quarter * quarter);
-        double v = value(u);
+        WindowPattern::Stretch here = stretch(u);
         std::int32_t from = run.begin;
         while (u < run.end) {
-            const double quarters = std::min(std::abs(v) / step_, 1e6);
+            const double quarters = std::min(here.same / step_, 1e6);
             const std::int32_t step = std::max(static_cast<std::int32_t>(quarters), 1) * quarter;
-            const double next = u + step < run.end || step == quarter ? value(u + step) : v;
-            if ((v < 0) != (next < 0)) {
-                const std::int32_t turn = round_run(crossing(u, step, v, next));
-                if (v < 0) push(run, from, turn, out);
+            const auto next = u + step < run.end || step == quarter ? stretch(u + step) : here;
+            if ((here.value < 0) != (next.value < 0)) {
+                const std::int32_t turn = round_run(crossing(u, step, here.value, next.value));
+                if (here.value < 0) push(run, from, turn, out);
                 from = turn;
             }
             u += step;
-            v = next;
+            here = next;
         }
-        if (v < 0) push(run, from, run.end, out);
+        if (here.value < 0) push(run, from, run.end, out);
     }
 
     static void push(const Run& run, std::int32_t begin, std::int32_t end, RunRows& out) {
@@ -97,6 +103,7 @@ class LineWalk {
     const RowBand& band_;
     double z_;
     double step_;  ///< mm
+    int axis_;     ///< of the lines
     double across_ = 0;
     std::uint32_t hint_ = 0;
     std::vector<Interval> windows_;

@@ -2,6 +2,8 @@
 #include "procedural/pattern/surface_pattern.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
 
 #include "engine/base/disjoint_sets.h"
 #include "engine/base/error.h"
@@ -132,6 +134,47 @@ TEST_CASE("skins by example that cannot be made are refused", "[texture]") {
     CHECK(mentions(told(skinned("shape = \"sphere\"\nradius = 600\n", picture("blobs.png", 20))),
                    "accepted: wider struts, or a smaller part"));
     CHECK(mentions(told(skinned(sphere, picture("blobs.png", 20) + "window = 3\n")), "window"));
+}
+
+TEST_CASE("the sign of a pattern stays as far along a line as it is told", "[texture]") {
+    // Two bricks of smooth samples with a gap, and nothing beside them.
+    SurfaceBricks bricks{.spacing = 0.25, .unit = 0.01, .slope = 3};
+    for (int i = 0; i < 2; ++i) {
+        PatternBrick& brick = bricks.bricks.emplace_back();
+        brick.corner = {i - 1, 0, -1};
+        for (int k = 0; k < PatternBrick::samples; ++k) {
+            const glm::ivec3 in(k % PatternBrick::side, k / PatternBrick::side % PatternBrick::side,
+                                k / PatternBrick::side / PatternBrick::side);
+            const dvec3 at = dvec3(in) + 8.0 * dvec3(brick.corner);
+            const double wave = 30 * std::sin(0.9 * at.x) + 25 * std::cos(0.7 * at.y - 0.4 * at.z);
+            brick.steps[static_cast<std::size_t>(k)] =
+                at.x > 5 && at.y > 5 ? PatternBrick::no_sample : static_cast<std::int16_t>(wave);
+        }
+    }
+    const SurfacePattern pattern(bricks);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> anywhere(-2.3, 2.3);
+    const double nowhere = pattern.value(dvec3(50));
+    double sum = 0, sum_of_values = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const dvec3 p(anywhere(random), anywhere(random), anywhere(random));
+        const int axis = i % 3;
+        const bool ascending = i % 2 == 0;
+        std::uint32_t hint = 0;
+        const WindowPattern::Stretch stretch = pattern.stretch_near(p, axis, ascending, hint);
+        REQUIRE(stretch.value == pattern.value(p));
+        REQUIRE(stretch.same >= std::abs(stretch.value));
+        sum += stretch.same;
+        sum_of_values += std::abs(stretch.value);
+        for (int k = 1; k < 16; ++k) {
+            dvec3 onward = p;
+            onward[axis] += (ascending ? 1 : -1) * stretch.same * k / 16;
+            const double value = pattern.value(onward);
+            if (value == nowhere && stretch.value != nowhere) break;  // no sample tells how far that is
+            REQUIRE((value < 0) == (stretch.value < 0));
+        }
+    }
+    CHECK(sum > 3 * sum_of_values);
 }
 
 }  // namespace surface_pattern_test
