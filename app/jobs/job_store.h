@@ -57,6 +57,7 @@ class JobStore {
     void end_work(const std::string& session, std::int64_t sequence);
     std::shared_ptr<const ServedJob> held(const std::string& id);
     void hold(std::shared_ptr<const ServedJob> job);
+    /// Waits until a job that is built ahead is there, or will not be.
     void wait_for_ahead(const std::string& id, const CancelToken& cancel);
 
     const ServedFolder& folder_;

@@ -77,6 +77,130 @@ std::vector<std::vector<std::uint32_t>> neighbours_of(std::span<const dvec2> poi
     return result;
 }
 
+/// A tour that is made shorter step by step. An edge costs what its points say, or else its length.
+class ImprovedTour {
+  public:
+    ImprovedTour(std::span<const dvec2> points, dvec2 start, const TourCost& cost)
+        : points_(points),
+          start_(start),
+          cost_(cost),
+          place_(points.size()),
+          // Reversal costs as much as the stretch is long, so large sets of points only get shorter
+          // stretches.
+          longest_(std::max<std::size_t>(1000, 1'000'000 / std::max<std::size_t>(points.size(), 1))) {
+        go_to_nearest();
+    }
+
+    void improve() {
+        if (tour_.size() < 3) return;
+        const auto neighbours = neighbours_of(points_);
+        constexpr int max_rounds = 20;
+        for (int round = 0; round < max_rounds; ++round) {
+            bool is_shorter = false;
+            for (std::size_t p = 0; p < tour_.size(); ++p) is_shorter |= improve_at(p, neighbours[p]);
+            if (!is_shorter) break;
+        }
+    }
+
+    std::vector<std::size_t> take() { return std::move(tour_); }
+
+  private:
+    static constexpr double min_gain = 1e-6;  // mm
+
+    void go_to_nearest() {
+        tour_.reserve(points_.size());
+        NearestPoints left(points_);
+        for (dvec2 at = start_; !left.empty(); at = points_[tour_.back()]) {
+            tour_.push_back(left.nearest(at));
+            left.remove(tour_.back());
+        }
+        for (std::size_t i = 0; i < tour_.size(); ++i) place_[tour_[i]] = i;
+    }
+
+    double edge(std::size_t a, std::size_t b) const {
+        if (cost_) return cost_(a, b);
+        return std::sqrt(squared_distance(a == points_.size() ? start_ : points_[a], points_[b]));
+    }
+    std::size_t before(std::size_t place) const { return place == 0 ? points_.size() : tour_[place - 1]; }
+
+    /// Tries the neighbours nearer than one of p's two on the tour: a gain needs a cheaper edge at one of its
+    /// ends.
+    bool improve_at(std::size_t p, std::span<const std::uint32_t> neighbours) {
+        bool is_shorter = false;
+        double to_beat = costlier_edge(p);
+        for (const std::uint32_t q : neighbours) {
+            if (!(edge(p, q) < to_beat) || !join(p, q)) continue;
+            is_shorter = true;
+            to_beat = costlier_edge(p);
+        }
+        return is_shorter;
+    }
+
+    double costlier_edge(std::size_t p) const {
+        const std::size_t at = place_[p];
+        return std::max(edge(before(at), p), at + 1 < tour_.size() ? edge(p, tour_[at + 1]) : 0.0);
+    }
+
+    /// Makes p and q adjacent if that gains something: by moving p, or by reversing the stretch between them,
+    /// including the later or the earlier of both.
+    bool join(std::size_t p, std::size_t q) {
+        const std::size_t a = std::min(place_[p], place_[q]), b = std::max(place_[p], place_[q]);
+        if (b - a > longest_) return false;
+        if (move_behind(p, q)) return true;
+        if (a + 1 <= b && gain(a + 1, b) > min_gain) {
+            reverse(a + 1, b);
+            return true;
+        }
+        if (b >= 1 && a <= b - 1 && gain(a, b - 1) > min_gain) {
+            reverse(a, b - 1);
+            return true;
+        }
+        return false;
+    }
+
+    /// Reversing [i, j] replaces the edges into i and out of j. The last point has no edge out.
+    double gain(std::size_t i, std::size_t j) const {
+        double saved = edge(before(i), tour_[i]) - edge(before(i), tour_[j]);
+        if (j + 1 < tour_.size()) saved += edge(tour_[j], tour_[j + 1]) - edge(tour_[i], tour_[j + 1]);
+        return saved;
+    }
+
+    void reverse(std::size_t i, std::size_t j) {
+        std::reverse(at(i), at(j + 1));
+        for (std::size_t k = i; k <= j; ++k) place_[tour_[k]] = k;
+    }
+
+    bool move_behind(std::size_t p, std::size_t q) {
+        const std::size_t from = place_[p], behind = place_[q], after = behind + 1;
+        if (after == from || behind == from) return false;
+        if (!(detour(before(from), p, from + 1) - detour(q, p, after) > min_gain)) return false;
+        if (from < behind) {
+            std::rotate(at(from), at(from + 1), at(after));
+        } else {
+            std::rotate(at(after), at(from), at(from + 1));
+        }
+        for (std::size_t k = std::min(from, after); k <= std::max(from, behind); ++k) place_[tour_[k]] = k;
+        return true;
+    }
+
+    /// Returns what it costs to pass `by` on the way from a point to the one at a place; to end there beyond
+    /// the last.
+    double detour(std::size_t from, std::size_t by, std::size_t place) const {
+        if (place >= tour_.size()) return edge(from, by);
+        return edge(from, by) + edge(by, tour_[place]) - edge(from, tour_[place]);
+    }
+
+    std::vector<std::size_t>::iterator at(std::size_t place) {
+        return tour_.begin() + static_cast<std::ptrdiff_t>(place);
+    }
+
+    std::span<const dvec2> points_;
+    dvec2 start_;
+    const TourCost& cost_;
+    std::vector<std::size_t> tour_, place_;  ///< points in order, and where each is
+    std::size_t longest_;
+};
+
 }  // namespace
 
 dvec2 end_of(const Bead& bead) { return bead.closed ? bead.points.front() : bead.points.back(); }
@@ -111,90 +235,9 @@ void append_nearest(std::span<Bead> beads, Seam seam, dvec2& at, std::vector<Bea
 }
 
 std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start, const TourCost& cost) {
-    const std::size_t n = points.size();
-    std::vector<std::size_t> tour;
-    tour.reserve(n);
-    NearestPoints left(points);
-    for (dvec2 at = start; !left.empty(); at = points[tour.back()]) {
-        tour.push_back(left.nearest(at));
-        left.remove(tour.back());
-    }
-    if (n < 3) return tour;
-    const auto neighbours = neighbours_of(points);
-    std::vector<std::size_t> place(n);
-    for (std::size_t i = 0; i < n; ++i) place[tour[i]] = i;
-    constexpr double min_gain = 1e-6;  // mm
-    const auto edge = [&](std::size_t a, std::size_t b) {
-        return cost ? cost(a, b) : std::sqrt(squared_distance(a == n ? start : points[a], points[b]));
-    };
-    const auto before = [&](std::size_t i) { return i == 0 ? n : tour[i - 1]; };
-    // Reversing [i, j] replaces the edges into i and out of j. The last point has no edge out.
-    const auto gain = [&](std::size_t i, std::size_t j) {
-        double saved = edge(before(i), tour[i]) - edge(before(i), tour[j]);
-        if (j + 1 < n) saved += edge(tour[j], tour[j + 1]) - edge(tour[i], tour[j + 1]);
-        return saved;
-    };
-    const auto turn = [&](std::size_t i, std::size_t j) {
-        std::reverse(tour.begin() + static_cast<std::ptrdiff_t>(i),
-                     tour.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-        for (std::size_t k = i; k <= j; ++k) place[tour[k]] = k;
-    };
-    // Moving p behind q joins its neighbours, and breaks the edge out of q; nothing follows the last point.
-    const auto detour = [&](std::size_t from, std::size_t by, std::size_t place_after) {
-        if (place_after >= n) return edge(from, by);
-        return edge(from, by) + edge(by, tour[place_after]) - edge(from, tour[place_after]);
-    };
-    const auto move_behind = [&](std::size_t p, std::size_t q) {
-        const std::size_t from = place[p], behind = place[q];
-        if (behind + 1 == from || behind == from) return false;
-        const std::size_t after = behind + 1;
-        if (!(detour(before(from), p, from + 1) - detour(q, p, after) > min_gain)) return false;
-        const auto at = [&](std::size_t i) { return tour.begin() + static_cast<std::ptrdiff_t>(i); };
-        if (from < behind)
-            std::rotate(at(from), at(from + 1), at(behind + 1));
-        else
-            std::rotate(at(after), at(from), at(from + 1));
-        for (std::size_t k = std::min(from, after); k <= std::max(from, behind); ++k) place[tour[k]] = k;
-        return true;
-    };
-    // Only neighbours nearer than one of p's two on the tour are tried: a gain needs a cheaper edge at one of
-    // its ends.
-    const auto edge_to_beat = [&](std::size_t p) {
-        const std::size_t at = place[p];
-        return std::max(edge(before(at), p), at + 1 < n ? edge(p, tour[at + 1]) : 0.0);
-    };
-    // Reversal costs as much as the stretch is long, so large sets of points only get shorter stretches.
-    const std::size_t longest = std::max<std::size_t>(1000, 1'000'000 / n);
-    const auto join = [&](std::size_t p, std::size_t q) {
-        const std::size_t a = std::min(place[p], place[q]), b = std::max(place[p], place[q]);
-        if (b - a > longest) return false;
-        if (move_behind(p, q)) return true;
-        // To make p and q adjacent, reverse the stretch between them, including the later or the earlier of
-        // both.
-        if (a + 1 <= b && gain(a + 1, b) > min_gain) {
-            turn(a + 1, b);
-            return true;
-        }
-        if (b >= 1 && a <= b - 1 && gain(a, b - 1) > min_gain) {
-            turn(a, b - 1);
-            return true;
-        }
-        return false;
-    };
-    constexpr int max_rounds = 20;
-    for (int round = 0; round < max_rounds; ++round) {
-        bool shorter = false;
-        for (std::size_t p = 0; p < n; ++p) {
-            double to_beat = edge_to_beat(p);
-            for (const std::uint32_t q : neighbours[p]) {
-                if (!(edge(p, q) < to_beat) || !join(p, q)) continue;
-                shorter = true;
-                to_beat = edge_to_beat(p);
-            }
-        }
-        if (!shorter) break;
-    }
-    return tour;
+    ImprovedTour tour(points, start, cost);
+    tour.improve();
+    return tour.take();
 }
 
 }  // namespace lamella

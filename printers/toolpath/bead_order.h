@@ -23,7 +23,7 @@ void begin_at(Bead& loop, std::size_t point);
 /// the start.
 using TourCost = std::function<double(std::size_t, std::size_t)>;
 
-/// Returns an order in which to visit points from `start`: nearest neighbour, then improved by 2-opt
+/// Returns an order in which to visit points from `start`: the nearest each time, then improved by 2-opt
 /// (reversing stretches, among the eight nearest neighbours of each point) and by moving single points, until
 /// nothing more is gained by the cost of its edges; without a cost by its length.
 std::vector<std::size_t> short_tour(std::span<const dvec2> points, dvec2 start, const TourCost& cost = {});

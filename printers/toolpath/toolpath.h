@@ -43,8 +43,8 @@ struct Toolpaths {
 /// narrower walls are tried, down to a quarter of the width, with the flow that gives the island's volume,
 /// and finally a short bead along its longest chord. No bead is wider than 1.5 widths. Islands and lines are
 /// visited by nearest neighbour from the contours' lower left corner, and the tour of the islands is
-/// shortened (see island_tour), so that few travels are long enough to retract; an island of one bead is
-/// entered where the travels to it and from it are best. The result depends on the arguments alone.
+/// shortened (see island_tour), so that few travels are long enough to retract; the last bead of an island
+/// ends near the next one. The result depends on the arguments alone.
 ///
 /// Unsupported infill runs along the bridge (see bridge_direction). The unsupported part of any bead is
 /// marked and becomes a bead by itself (see cut_hanging). Throws Interrupted when `cancel` (which may be

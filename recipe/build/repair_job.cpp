@@ -69,12 +69,17 @@ void hold_tips(const Recipe& recipe, BuiltJob& built, RepairReport& report, doub
     TipStrutOptions options;
     options.radius = 0.5 * diameter;
     options.layer_height = built.layers.plan.least_height();
+    const auto near_bed = [&](int layer) {
+        return built.job.plane(layer) - built.job.plane(0) <= 0.5 * options.radius;
+    };
     std::vector<FieldPtr> solids;
     for (const dvec3 tip : report.tips->begins) {
         const auto below = strut_below(tip, *built.job.part, *body, options);
         std::vector<Beam> legs;
         if (below) legs.push_back(*below);
-        if (legs.empty()) legs = struts_to_bed(tip, built.job.plane(0), *body, options);
+        // The lowest layers may hold nothing of a body that ends in points.
+        for (int layer = 0; legs.empty() && near_bed(layer) && built.job.plane(layer) < tip.z; ++layer)
+            legs = struts_to_bed(tip, built.job.plane(layer), *body, options);
         if (legs.empty()) legs = struts_aside(tip, *built.job.part, *body, options);
         for (const Beam& leg : legs) {
             report.holds.push_back(leg);

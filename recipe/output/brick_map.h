@@ -9,8 +9,8 @@
 
 namespace lamella {
 
-/// Bits of 4 x 4 x 4 cells, a brick, share a word. For each empty brick the distance to the nearest one that
-/// is not is known. Positions are in cells.
+/// Bits of 4 x 4 x 4 cells, a brick, share a word. Each empty brick knows the distance to the nearest one
+/// with a cell of the set. Positions are in cells.
 class BrickMap {
   public:
     /// Layers of cells that share words: different threads fill different slabs.

@@ -222,7 +222,7 @@ const std::string machine = "[layers]\nheight = 0.2\n[printer]\nprofile = \"marl
 
 TEST_CASE("moves of foam are those of the file, slowed down and with their travel", "[server]") {
     const Compared seen = compare(
-        "[part]\nshape = \"box\"\nsize = [12, 10, 2]\n[foam]\ncell = 4\nbeam = 0.7\n"
+        "[part]\nshape = \"box\"\nsize = [18, 14, 2]\n[foam]\ncell = 4\nbeam = 0.7\n"
         "[skin]\nthickness = 0.9\n" +
             machine + "wipe = 2\nz_hop = 0.4\nleast_layer_time = 8\n",
         {});
