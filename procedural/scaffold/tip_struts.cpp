@@ -15,7 +15,7 @@ namespace {
 
 constexpr int tilts = 4, turns = 16;
 constexpr double steps_in_a_radius = 8;
-constexpr double farthest_foot = 12, farthest_aside = 6;  // from the tip, in radii
+constexpr double farthest = 12;  // end of a level strut from its tip, in radii
 
 /// Returns how far the part is from the tip in a direction, up to `reach`; nothing where the way leaves the
 /// body or ends in too little solid.
@@ -134,10 +134,10 @@ std::vector<dvec3> straightened(const std::vector<dvec3>& way, const Field& body
     return bends;
 }
 
-/// Returns struts along the shortest level way from a tip to a place that `is_goal` accepts, at most this
-/// many radii long; none where there is no such way.
+/// Returns struts along the shortest level way from a tip to a place that `is_goal` accepts; none where
+/// there is no such way.
 template <class Goal>
-std::vector<Beam> level_legs(dvec3 tip, const Field& body, const TipStrutOptions& options, double farthest,
+std::vector<Beam> level_legs(dvec3 tip, const Field& body, const TipStrutOptions& options,
                              const Goal& is_goal) {
     const double step = options.radius / steps_in_a_radius;
     LevelPaths paths(tip, step, std::min(options.reach, farthest * options.radius));
@@ -177,7 +177,7 @@ std::vector<Beam> struts_to_bed(dvec3 tip, double first_plane, const Field& body
                                 const TipStrutOptions& options) {
     if (tip.z - first_plane > 0.5 * options.radius) return {};
     const double around = 0.5 * options.radius / steps_in_a_radius;
-    std::vector<Beam> legs = level_legs(tip, body, options, farthest_foot, [&](dvec3 place) {
+    std::vector<Beam> legs = level_legs(tip, body, options, [&](dvec3 place) {
         return stands_on_bed(dvec2(place), first_plane, body, around);
     });
     if (legs.empty()) return {};
@@ -194,7 +194,7 @@ std::vector<Beam> struts_aside(dvec3 tip, const Field& part, const Field& body,
         }
         return true;
     };
-    return level_legs(tip, body, options, farthest_aside, stands);
+    return level_legs(tip, body, options, stands);
 }
 
 }  // namespace lamella

@@ -32,7 +32,7 @@ std::vector<Beam> struts_to_bed(dvec3 tip, double first_plane, const Field& body
                                 const TipStrutOptions& options);
 
 /// Returns a level strut from a tip to the nearest solid of the part that goes on below it for a radius,
-/// within the body, as struts_to_bed() does; at most six radii long. It hangs over what it crosses.
+/// within the body and no farther away than struts_to_bed() looks. It hangs over what it crosses.
 std::vector<Beam> struts_aside(dvec3 tip, const Field& part, const Field& body,
                                const TipStrutOptions& options);
 
