@@ -145,8 +145,7 @@ void ServedPrint::note_end(const std::exception_ptr& failure) {
         ending.message = summary_text(link_->status());
     }
     const std::lock_guard lock(mutex_);
-    end_ = ending.end;
-    message_ = ending.message;
+    printed_ = std::move(ending);
     ended_.notify_all();
 }
 
@@ -162,8 +161,8 @@ ServedPrint::Ending ServedPrint::ending_of(const std::exception_ptr& failure) {
 
 void ServedPrint::watch() {
     PrintRemarks remarks(messages_);
-    bool has_ended = false;
-    while (!has_ended) {
+    bool has_printed = false;
+    while (!has_printed) {
         const LinkStatus status = link_->status();
         remarks.look(status);
         if (TerminalGuard::take_stop()) messages_.add("Ctrl-Z does not stop a print");
@@ -173,14 +172,18 @@ void ServedPrint::watch() {
         }
         events_.send("", "print", describe());
         std::unique_lock lock(mutex_);
-        has_ended = ended_.wait_for(lock, event_interval, [this] { return end_ != End::none; });
+        has_printed = ended_.wait_for(lock, event_interval, [this] { return printed_.end != End::none; });
     }
-    // What became known between the last look and the end is told, too.
+    // What became known between the last look and the end is told, too: before the print is seen to have
+    // ended.
     remarks.look(link_->status());
     {
         const std::lock_guard lock(mutex_);
-        messages_.add(message_);
+        messages_.add(printed_.message);
+        end_ = printed_.end;
+        message_ = printed_.message;
     }
+    ended_.notify_all();
     events_.send("", "print", describe());
 }
 

@@ -77,7 +77,8 @@ class ServedPrint {
     std::atomic<bool> stopping_{false};
     mutable std::mutex mutex_;  // guards what follows
     mutable std::condition_variable ended_;
-    End end_ = End::none;
+    Ending printed_{End::none, ""};  // as the printing thread left it
+    End end_ = End::none;            // as pages see it: all messages are there
     std::string message_;
     Rates rates_;
     std::thread printing_, watching_;
