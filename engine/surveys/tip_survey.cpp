@@ -37,6 +37,30 @@ struct GrowingTip {
     std::vector<PlacedRun> runs{};          ///< grown; none once it is high
 };
 
+/// The runs of a node in a layer.
+struct NodeRuns {
+    std::int64_t length = 0;  ///< of them together, run units
+    Run longest{0, 0};
+    int row = 0;               ///< of the longest
+    int first = 0, last = -1;  ///< rows
+};
+
+NodeRuns runs_of(const LayerPieces& pieces, Node node) {
+    NodeRuns found;
+    found.first = pieces.rows_count();
+    for (int r = 0; r < pieces.rows_count(); ++r) {
+        for_runs(pieces, r, node, true, [&](const LabelledRun& run) {
+            found.length += run.end - run.begin;
+            found.first = std::min(found.first, r);
+            found.last = r;
+            if (run.end - run.begin <= found.longest.end - found.longest.begin) return;
+            found.longest = {run.begin, run.end};
+            found.row = r;
+        });
+    }
+    return found;
+}
+
 class TipSurveyor : public LayerPass {
   public:
     TipSurveyor(const Job& job, const TipSurveyOptions& options)
@@ -63,6 +87,7 @@ class TipSurveyor : public LayerPass {
     std::vector<Contact> holding_contacts(const LayerPieces& layer) const;
     void own_pieces(LayerPieces& layer);
     void joint(Node a, Node b);
+    dvec3 middle(const NodeRuns& runs, const Layer& layer) const;
     void include(Node number, const LayerPieces& pieces, const Layer& layer);
     void keep_runs(GrowingTip& tip, Node number, const LayerPieces& pieces, int layer,
                    std::pair<int, int> rows);
@@ -83,6 +108,7 @@ class TipSurveyor : public LayerPass {
     LayerPieces below_;          // the last layer
     DisjointSets sets_;          // of nodes: those held are joined where they meet
     Node held_ = 0;              // nodes before it are held by the bed
+    std::vector<dvec3> on_bed_;  // a point of each of these, mm
     std::map<Node, GrowingTip> tips_;
     std::set<std::pair<Node, Node>> joints_;  // nodes that touch, not both held
     std::size_t runs_kept_ = 0;
@@ -237,12 +263,20 @@ void TipSurveyor::own_pieces(LayerPieces& layer) {
 void TipSurveyor::write(const Layer& layer, LayerProduct& product) {
     LayerPieces pieces = std::move(static_cast<PiecesProduct&>(product).pieces);
     own_pieces(pieces);
+    if (on_bed_.empty()) {
+        for (Node node = 0; node < held_; ++node) on_bed_.push_back(middle(runs_of(pieces, node), layer));
+    }
     std::vector<Node> tips;
     for (const auto* nodes : {&pieces.firm_nodes, &pieces.sliver_nodes})
         std::ranges::copy_if(*nodes, std::back_inserter(tips), [&](Node node) { return is_tip(node); });
     sort_unique(tips);
     for (const Node tip : tips) include(tip, pieces, layer);
     below_ = std::move(pieces);
+}
+
+/// Returns the middle of a node's longest run, mm.
+dvec3 TipSurveyor::middle(const NodeRuns& runs, const Layer& layer) const {
+    return {on_band(band_, 0.5 * (runs.longest.begin + runs.longest.end), runs.row + 0.5), layer.z()};
 }
 
 /// Adds what a layer has of a tip.
@@ -253,22 +287,10 @@ void TipSurveyor::include(Node number, const LayerPieces& pieces, const Layer& l
     if (found.end_layer == 0) found.first_layer = index;
     found.end_layer = index + 1;
     found.height = plan_.height(found.first_layer, found.end_layer);
-    std::int64_t length = 0;
-    Run longest{0, 0};
-    int row = 0, first = pieces.rows_count(), last = -1;
-    for (int r = 0; r < pieces.rows_count(); ++r) {
-        for_runs(pieces, r, number, true, [&](const LabelledRun& run) {
-            length += run.end - run.begin;
-            first = std::min(first, r);
-            last = r;
-            if (run.end - run.begin <= longest.end - longest.begin) return;
-            longest = {run.begin, run.end};
-            row = r;
-        });
-    }
-    const double area = static_cast<double>(length) / run_unit * options_.pitch * options_.pitch;
+    const NodeRuns runs = runs_of(pieces, number);
+    const double area = static_cast<double>(runs.length) / run_unit * options_.pitch * options_.pitch;
     tip.volume += area * layer.thickness();
-    const dvec3 within(on_band(band_, 0.5 * (longest.begin + longest.end), row + 0.5), layer.z());
+    const dvec3 within = middle(runs, layer);
     if (index == found.first_layer) found.begin = within;
     if (area > found.area) {
         found.area = area;
@@ -280,7 +302,7 @@ void TipSurveyor::include(Node number, const LayerPieces& pieces, const Layer& l
         tip.is_high = tip.stays = true;
         forget_runs(tip);
     } else {
-        keep_runs(tip, number, pieces, index, {first - tip_growth, last + tip_growth});
+        keep_runs(tip, number, pieces, index, {runs.first - tip_growth, runs.last + tip_growth});
     }
 }
 
@@ -380,6 +402,7 @@ TipSurvey TipSurveyor::result() {
     }
     std::ranges::stable_sort(survey.kept, std::greater<>(), &HangingTip::height);
     if (survey.kept.size() > options_.report_kept) survey.kept.resize(options_.report_kept);
+    survey.on_bed = std::move(on_bed_);
     const SurveyGrid grid{{band_.along_origin, band_.across_origin}, options_.pitch, 0, 1};
     survey.removed = std::make_shared<RunBoxes>(grid, std::move(runs));
     return survey;

@@ -35,6 +35,7 @@ struct TipSurvey {
     std::size_t higher = 0;        ///< tips that begin in the air and stay because they are too high
     std::size_t holding = 0;       ///< tips that stay because pieces of the part hang together by them alone
     std::vector<HangingTip> kept;  ///< the highest few of those that stay
+    std::vector<dvec3> on_bed;     ///< a point of each piece of the lowest layer that holds anything, mm
     std::vector<dvec3> begins;     ///< where tips that stay begin in the air or on less than what holds, mm
     /// Runs of the tips that are to be removed, grown by two pitches within their layers. Never null. Layer l
     /// of the job lies between heights l and l + 1 of the boxes' grid.

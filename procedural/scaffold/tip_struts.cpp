@@ -182,7 +182,6 @@ std::vector<Beam> struts_to_bed(dvec3 tip, double first_plane, const Field& body
     });
     if (legs.empty()) return {};
     legs.back().b.z = first_plane - 0.5 * options.layer_height;
-    legs.back().rb = 0.5 * options.radius;
     return legs;
 }
 

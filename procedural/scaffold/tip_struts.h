@@ -23,8 +23,8 @@ std::optional<Beam> strut_below(dvec3 tip, const Field& part, const Field& body,
                                 const TipStrutOptions& options);
 
 /// Returns a strut from a tip close above the bed to the bed, within the body: sideways, as flat as the body
-/// itself leaves the bed, and in several legs where the straight way leaves the body. Its foot is half as
-/// thick, and lies where the body reaches down to the bed: the nearest such place on a grid of an eighth of
+/// itself leaves the bed, and in several legs where the straight way leaves the body. Its foot is as thick as
+/// its tip, and lies where the body reaches down to the bed: the nearest such place on a grid of an eighth of
 /// the radius, up to twelve radii away. Returns no leg when the tip is higher above the bed than half the
 /// radius, or no such place lies within reach. `first_plane` is the height of the lowest layer's cutting
 /// plane, mm; half a layer lies below it.

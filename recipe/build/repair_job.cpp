@@ -72,20 +72,27 @@ void hold_tips(const Recipe& recipe, BuiltJob& built, RepairReport& report, doub
     const auto near_bed = [&](int layer) {
         return built.job.plane(layer) - built.job.plane(0) <= 0.5 * options.radius;
     };
-    std::vector<FieldPtr> solids;
-    for (const dvec3 tip : report.tips->begins) {
-        const auto below = strut_below(tip, *built.job.part, *body, options);
+    // The lowest layers may hold nothing of a body that ends in points.
+    const auto to_bed = [&](dvec3 tip) {
         std::vector<Beam> legs;
-        if (below) legs.push_back(*below);
-        // The lowest layers may hold nothing of a body that ends in points.
         for (int layer = 0; legs.empty() && near_bed(layer) && built.job.plane(layer) < tip.z; ++layer)
             legs = struts_to_bed(tip, built.job.plane(layer), *body, options);
+        return legs;
+    };
+    for (const dvec3 tip : report.tips->begins) {
+        std::vector<Beam> legs;
+        if (const auto below = strut_below(tip, *built.job.part, *body, options)) legs.push_back(*below);
+        if (legs.empty()) legs = to_bed(tip);
         if (legs.empty()) legs = struts_aside(tip, *built.job.part, *body, options);
-        for (const Beam& leg : legs) {
-            report.holds.push_back(leg);
-            solids.push_back(make_round_cone(leg));
-        }
+        report.holds.insert(report.holds.end(), legs.begin(), legs.end());
     }
+    // So may those of the pattern, where the body already stands.
+    for (const dvec3 lowest : report.tips->on_bed) {
+        const std::vector<Beam> legs = to_bed(lowest);
+        report.holds.insert(report.holds.end(), legs.begin(), legs.end());
+    }
+    std::vector<FieldPtr> solids;
+    for (const Beam& leg : report.holds) solids.push_back(make_round_cone(leg));
     if (solids.empty()) return;
     const FieldPtr struts = make_intersection({make_union(std::move(solids)), body});
     built.job.part = make_union({built.job.part, struts});

@@ -76,6 +76,9 @@ TEST_CASE("a tongue that hangs is removed up to where it joins", "[tips]") {
     CHECK(survey.higher == 0);
     CHECK(survey.holding == 0);
     CHECK(survey.kept.empty());
+    REQUIRE(survey.on_bed.size() == 1);
+    CHECK(survey.on_bed.front().z == Approx(0.025));
+    CHECK(glm::distance(dvec2(survey.on_bed.front()), dvec2(1, 2)) < 2.1);
     CHECK(survey.volume == Approx(0.2).epsilon(0.06));
     const Job after = trimmed(job, survey);
     CHECK(found(after, Check::islands) == 0);

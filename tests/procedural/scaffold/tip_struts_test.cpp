@@ -77,7 +77,7 @@ TEST_CASE("a tip close above the bed gets a strut to where the body stands on th
     CHECK(found[0].b.x == Approx(footprint - 0.1).margin(0.11));
     CHECK(std::abs(found[0].b.y) < 1e-9);
     CHECK(std::abs(found[0].b.z) < 1e-9);
-    CHECK(found[0].rb == 0.2);
+    CHECK(found[0].rb == 0.4);
     // Far away, the small footprint is found as well.
     const auto farther = struts_to_bed({-1.9, 1.9, 0.37}, 0.31, *ball, {.radius = 0.2});
     REQUIRE(farther.size() == 1);
@@ -102,7 +102,7 @@ TEST_CASE("a strut to the bed goes round a corner of the body in legs", "[suppor
     CHECK(legs.front().a == foot);
     CHECK(legs.back().b.y == Approx(2).margin(0.051));
     CHECK(legs.back().b.z == Approx(0));
-    CHECK(legs.back().rb == 0.2);
+    CHECK(legs.back().rb == 0.4);
     double length = 0;
     for (std::size_t i = 0; i < legs.size(); ++i) {
         length += glm::length(dvec2(legs[i].b - legs[i].a));

@@ -118,6 +118,29 @@ TEST_CASE("tips are trimmed as printed, and the higher ones told", "[repair]") {
     CHECK(found(repaired(twice + "[repair]\ntrim = 0.4\n").job, Check::islands, 0.4).count == 0);
 }
 
+TEST_CASE("what begins just above the bed gets struts to where the body stands on it", "[repair]") {
+    // A ball without what it stands on: its lowest points are a ring, in the third layer.
+    const std::string ring =
+        "[part]\nshape = \"sphere\"\nradius = 10\n[layers]\nheight = 0.05\n[[field]]\nname = \"hole\"\n"
+        "formula = \"hypot(x, y) - 1.3\"\nbounds = [[-2, -2, -10], [2, 2, -9]]\n"
+        "[[region]]\nfield = \"hole\"\nmake = \"empty\"\n";
+    const BuiltJob left = repaired(ring + "[repair]\ntrim = 0.2\n"),
+                   held = repaired(ring + "[repair]\ntrim = 0.2\nhold = 0.8\n");
+    REQUIRE(held.repairs->tips->on_bed.size() == 1);
+    CHECK(held.repairs->tips->begins.empty());
+    CHECK(held.repairs->tips->on_bed.front().z == Approx(-9.875));
+    REQUIRE(held.repairs->holds.size() == 1);
+    CHECK(held.repairs->holds.front().b.z == Approx(-10));
+    const dvec2 foot(held.repairs->holds.front().b);
+    CHECK(left.job.part->value({foot, left.job.plane(0)}) > 0);
+    CHECK(held.job.part->value({foot, held.job.plane(0)}) < 0);
+    for (const Check check : {Check::islands, Check::connectivity})
+        CHECK(found(held.job, check, 0.4).count == 0);
+    // A ball that stands on the bed needs none.
+    CHECK(repaired("[part]\nshape = \"sphere\"\nradius = 10\n[repair]\ntrim = 0.2\nhold = 0.8\n")
+              .repairs->holds.empty());
+}
+
 TEST_CASE("higher tips get struts down to the part", "[repair]") {
     // A box with a hall in it: a floor, a wall, and a roof with a tongue that hangs from it.
     const std::string hall =
