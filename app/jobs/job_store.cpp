@@ -101,21 +101,26 @@ std::shared_ptr<const ServedJob> JobStore::build(const std::string& text, const 
     wait_for_ahead(id, *cancel);
     if (auto job = held(id)) return job;
     if (!searches) check_is_searched(recipe);
-    BuildControl control;
-    control.threads = threads_;
-    control.cancel = cancel.get();
-    control.inputs = &inputs_;
-    control.on_progress = [&](const std::string& what, std::int64_t done, std::int64_t of) {
-        events_.send(session, "progress",
-                     {{"what", "build"}, {"id", nullptr}, {"done", done}, {"of", of}, {"text", what}});
-    };
-    auto job = build_served_job(text, folder_, control);
+    auto job = build_served_job(text, folder_, control(*cancel, session));
     stop_if_cancelled(cancel.get());
     hold(job);
     return job;
 }
 
-std::shared_ptr<const ServedJob> JobStore::build_ahead(const std::string& text) {
+BuildControl JobStore::control(const CancelToken& cancel, const std::string& session) {
+    BuildControl control;
+    control.threads = threads_;
+    control.cancel = &cancel;
+    control.inputs = &inputs_;
+    control.on_progress = [this, session](const std::string& what, std::int64_t done, std::int64_t of) {
+        events_.send(session, "progress",
+                     {{"what", "build"}, {"id", nullptr}, {"done", done}, {"of", of}, {"text", what}});
+    };
+    return control;
+}
+
+std::shared_ptr<const ServedJob> JobStore::build_ahead(const std::string& text, const std::string& session,
+                                                       const std::shared_ptr<CancelToken>& cancel) {
     std::shared_ptr<const ServedJob> job;
     try {
         const Recipe recipe = read_served_recipe(text, folder_);
@@ -124,12 +129,11 @@ std::shared_ptr<const ServedJob> JobStore::build_ahead(const std::string& text) 
         {
             const std::lock_guard lock(mutex_);
             ahead_ = id;
+            ahead_cancel_ = cancel;
         }
-        BuildControl control;
-        control.threads = threads_;
-        control.cancel = &ahead_cancel_;
-        control.inputs = &inputs_;
-        job = build_served_job(text, folder_, control);
+        job = held(id);
+        if (job) stop_if_cancelled(cancel.get());
+        if (!job) job = build_served_job(text, folder_, control(*cancel, session));
         hold(job);
     } catch (const std::exception&) {  // told to whoever asks for the job
     }
@@ -142,6 +146,7 @@ std::shared_ptr<const ServedJob> JobStore::build_ahead(const std::string& text) 
 void JobStore::wait_for_ahead(const std::string& id, const CancelToken& cancel) {
     constexpr std::chrono::milliseconds look{20};
     std::unique_lock lock(mutex_);
+    if (!ahead_.empty() && ahead_ != id) ahead_cancel_->cancel();
     while (ahead_ == id && !cancel.cancelled()) ahead_ended_.wait_for(lock, look);
 }
 
@@ -158,7 +163,7 @@ void JobStore::forget(const std::string& id) {
 
 void JobStore::cancel_all() {
     const std::lock_guard lock(mutex_);
-    ahead_cancel_.cancel();
+    if (ahead_cancel_) ahead_cancel_->cancel();
     for (auto& [session, build] : builds_) {
         build.cancel->cancel();
         build.end_work();

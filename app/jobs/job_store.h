@@ -25,9 +25,10 @@ class JobStore {
     /// search that it may not do, and Interrupted when a build with a higher number came.
     std::shared_ptr<const ServedJob> build(const std::string& text, const std::string& session,
                                            std::int64_t sequence, bool searches = true);
-    /// Builds the job of a text before anyone asks for it; build() waits for it. Returns null where build()
-    /// would throw, or all builds are cancelled.
-    std::shared_ptr<const ServedJob> build_ahead(const std::string& text);
+    /// Builds the job of a text before anyone asks for it; build() waits for it, and one of another job
+    /// cancels it. Progress goes to the session. Returns null where build() would throw. One at a time.
+    std::shared_ptr<const ServedJob> build_ahead(const std::string& text, const std::string& session,
+                                                 const std::shared_ptr<CancelToken>& cancel);
     /// Ends the build of a session, and what is computed for those who look at its job.
     void end_session(const std::string& session);
     /// Returns what tells slow work for a session that a newer recipe of the session has come; null for a
@@ -57,8 +58,9 @@ class JobStore {
     void end_work(const std::string& session, std::int64_t sequence);
     std::shared_ptr<const ServedJob> held(const std::string& id);
     void hold(std::shared_ptr<const ServedJob> job);
-    /// Waits until a job that is built ahead is there, or will not be.
+    /// Waits until a job that is built ahead is there, or will not be. Cancels another one.
     void wait_for_ahead(const std::string& id, const CancelToken& cancel);
+    BuildControl control(const CancelToken& cancel, const std::string& session);
 
     const ServedFolder& folder_;
     EventHub& events_;
@@ -69,7 +71,7 @@ class JobStore {
     std::list<std::shared_ptr<const ServedJob>> jobs_;  // the one used last first
     std::map<std::string, Build> builds_;               // the latest of each session
     std::string ahead_;                                 // id of the job that is built ahead, while it is
-    CancelToken ahead_cancel_;
+    std::shared_ptr<CancelToken> ahead_cancel_;         // of it
     std::condition_variable ahead_ended_;
 };
 

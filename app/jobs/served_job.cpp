@@ -135,8 +135,7 @@ std::shared_ptr<const PreviewScene> ServedJob::scene(int pixels, int threads) co
 }
 
 std::shared_ptr<const std::string> ServedJob::coverage(int longest, const PassControl& control) const {
-    constexpr int coarse = 64;  // half a megabyte at most
-    if (longest > coarse)
+    if (longest > coarse_volume)
         return std::make_shared<const std::string>(coverage_volume(*this, longest, control));
     const std::lock_guard lock(volume_mutex_);
     if (!volume_ || volume_longest_ != longest) {

@@ -16,6 +16,9 @@
 
 namespace lamella {
 
+/// Voxels along the longest side of the volume that a page asks for first.
+inline constexpr int coarse_volume = 64;
+
 /// A built job with its recipe. Immutable, shared by the requests that read its layers.
 struct ServedJob {
     std::string id;  ///< in addresses: the identity of the layers and a hash of the recipe's text

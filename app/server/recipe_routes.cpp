@@ -46,12 +46,17 @@ auto with_mistakes(const Work& work) {
     }
 }
 
-HttpReply edit(const HttpRequest& request) {
+HttpReply edit(ServerState& state, const HttpRequest& request) {
     const Json json = request.json();
     std::vector<RecipeChange> changes;
     for (const Json& change : member<Json::array_t>(json, "changes")) changes.push_back(change_of(change));
     return with_mistakes([&] {
-        return Json{{"text", edited_recipe(member<std::string>(json, "text"), changes)}};
+        const std::string text = edited_recipe(member<std::string>(json, "text"), changes);
+        if (json.contains("layer")) {
+            const auto session = json.contains("session") ? member<std::string>(json, "session") : "";
+            state.ahead.begin({text, session, member<int>(json, "layer")});
+        }
+        return Json{{"text", text}};
     });
 }
 
@@ -103,7 +108,7 @@ void add_recipe_routes(ServerState& state) {
     HttpServer& http = state.http;
     http.route("GET", "/api/recipe", [&state](const HttpRequest&) { return read(state); });
     http.route("PUT", "/api/recipe", [&state](const HttpRequest& request) { return save(state, request); });
-    http.route("POST", "/api/edit", edit);
+    http.route("POST", "/api/edit", [&state](const HttpRequest& request) { return edit(state, request); });
     http.route("POST", "/api/values", values);
     http.route("POST", "/api/files", [&state](const HttpRequest& request) -> HttpReply {
         return Json{{"path", state.folder.keep(request.text("name"), request.body)}};

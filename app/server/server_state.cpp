@@ -15,16 +15,10 @@ namespace {
 constexpr std::ptrdiff_t most_computing = 3;
 
 /// Computes what the page first shows of the recipe that it begins with, while the browser starts.
-void show_ahead(ServerState& state, const CancelToken& cancel) {
-    constexpr int coarse = 64;  // as the page asks for it
+void show_ahead(ServerState& state) {
     try {
         const std::string file = state.folder.file(state.options.recipe).string();
-        const auto job = state.jobs.build_ahead(whole_file(file, "a recipe"));
-        if (!job) return;
-        PassControl control;
-        control.threads = state.options.threads;
-        control.cancel = &cancel;
-        job->coverage(coarse, control);
+        state.ahead.begin({whole_file(file, "a recipe"), "", {}});
     } catch (const std::exception&) {  // told to the page when it asks
     }
 }
@@ -41,6 +35,7 @@ ServerState::ServerState(const ServerOptions& given)
       http(given.http),
       folder(given.folder),
       jobs(folder, events, given.threads, given.jobs),
+      ahead(jobs, given.threads),
       outputs(folder, events, given.threads),
       printer(folder, events, given.threads),
       sending(events, given.threads),
@@ -75,17 +70,15 @@ void serve_http(const ServerOptions& options, const CancelToken& cancel,
             options.on_delay("stopping the print; wait until its heaters are off");
         state.printer.end();  // first, so that pages still see how it ends
         state.jobs.cancel_all();
+        state.ahead.end();
         state.events.end();
         state.http.stop();
     });
-    std::thread ahead([&] {
-        if (options.has_page && !options.recipe.empty()) show_ahead(state, cancel);
-    });
+    if (options.has_page && !options.recipe.empty()) show_ahead(state);
     const std::string host = options.http.address == "0.0.0.0" ? "127.0.0.1" : options.http.address;
     on_ready(fmt::format("http://{}:{}/?token={}", host, state.http.port(), options.http.token));
     state.http.serve();
     has_ended = true;
-    ahead.join();
     watch.join();
 }
 

@@ -13,6 +13,7 @@
 #include "app/http/http_server.h"
 #include "app/jobs/analysis_store.h"
 #include "app/jobs/job_store.h"
+#include "app/jobs/jobs_ahead.h"
 #include "app/jobs/output_store.h"
 #include "app/server/served_printer.h"
 #include "app/server/served_sending.h"
@@ -52,6 +53,7 @@ struct ServerState {
     ServedFolder folder;
     EventHub events;
     JobStore jobs;
+    JobsAhead ahead;
     OutputStore outputs;
     ServedPrinter printer;
     ServedSending sending;

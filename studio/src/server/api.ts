@@ -39,8 +39,12 @@ export const get_recipe = () =>
 export const save_recipe = (text: string, path: string | null) =>
     get_json<{ path: string }>("/api/recipe", { method: "PUT", json: path ? { text, path } : { text } });
 
-export const edit_recipe = (text: string, changes: Change[]) =>
-    get_json<{ text: string }>("/api/edit", { method: "POST", json: { text, changes } });
+/** `layer`: the one that will be asked for of the new text's job, so that the server begins with it. */
+export const edit_recipe = (text: string, changes: Change[], layer?: number) =>
+    get_json<{ text: string }>("/api/edit", {
+        method: "POST",
+        json: { text, changes, ...(layer === undefined ? {} : { layer, session }) },
+    });
 
 export const read_values = (text: string, signal: Signal) =>
     get_json<Values>("/api/values", { method: "POST", json: { text }, signal });

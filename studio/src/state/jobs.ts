@@ -13,6 +13,10 @@ import { shown_design } from "../view/design";
 const gather = 60;
 /** A job that has been building for less is not given up for a newer one: a moving slider shows results. */
 const patience = 300;
+/** The recipe's values are asked for after its job, or when that takes longer than this, ms. */
+const values_rest = 150;
+
+const rest = (ms: number) => new Promise((done) => setTimeout(done, ms));
 
 let sequence = 0;
 let controller: AbortController | null = null;
@@ -49,11 +53,13 @@ function start(): void {
     }
     controller = mine;
     building.value = true;
-    void take_values(recipe, mine.signal);
-    void take_job(recipe, mine);
+    const made = take_job(recipe, mine);
+    // The form shows what was typed, so that its values may come after the layer.
+    void Promise.race([made, rest(values_rest)]).then(() => take_values(recipe, mine.signal));
 }
 
 async function take_values(recipe: string, signal: AbortSignal): Promise<void> {
+    if (signal.aborted) return;
     try {
         const read = await read_values(recipe, signal);
         if (signal.aborted) return;

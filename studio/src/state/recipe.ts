@@ -7,7 +7,7 @@ import { focus_soon } from "../shell/focus";
 import { remember, step_back, step_forward } from "./history";
 import { refresh } from "./jobs";
 import { confirm_done, report } from "./notices";
-import { edit_mistakes, opened, path, saved_text, starting, tab, text } from "./store";
+import { building, edit_mistakes, job, layer, opened, path, saved_text, starting, tab, text } from "./store";
 
 /** Values that the form shows before the server has answered, by place_of. */
 export const pending = signal<Record<string, string | null>>({});
@@ -61,7 +61,9 @@ async function send_edits(): Promise<void> {
         waiting = null;
         const before = text.value;
         try {
-            const edited = await edit_recipe(before, changes);
+            // While a job is made, the one of this text may never be asked for.
+            const ahead = job.value && !building.value ? layer.value : undefined;
+            const edited = await edit_recipe(before, changes, ahead);
             if (text.value !== before) {
                 // the text changed meanwhile: the edit belongs to the new one
                 edit(changes, what);

@@ -4,9 +4,12 @@
 #include <catch2/catch.hpp>
 #include <future>
 
+#include "app/http/http_server.h"
+#include "app/jobs/jobs_ahead.h"
 #include "app/jobs/layer_content.h"
 #include "app/jobs/recipe_mistakes.h"
 #include "tests/app/commands/folder.h"
+#include "tests/wait_for.h"
 
 namespace job_store_test {
 
@@ -24,13 +27,17 @@ struct Store {
     ServedFolder folder{files.path()};
     EventHub events;
     JobStore jobs{folder, events, 2, 4};
+
+    std::shared_ptr<const ServedJob> ahead(const std::string& text) {
+        return jobs.build_ahead(text, "page", std::make_shared<CancelToken>());
+    }
 };
 
 }  // namespace
 
 TEST_CASE("a job that was built ahead is the one that is asked for", "[server]") {
     Store store;
-    auto ahead = std::async(std::launch::async, [&] { return store.jobs.build_ahead(foam); });
+    auto ahead = std::async(std::launch::async, [&] { return store.ahead(foam); });
     const auto asked = store.jobs.build(foam, "page", 1);  // during the build, or after it
     const auto built = ahead.get();
     REQUIRE(built);
@@ -44,10 +51,46 @@ TEST_CASE("a job that was built ahead is the one that is asked for", "[server]")
 TEST_CASE("a job that cannot be built ahead is told to whoever asks", "[server]") {
     Store store;
     const std::string wrong = foam + "[foam]\n";
-    CHECK(store.jobs.build_ahead(wrong) == nullptr);
+    CHECK(store.ahead(wrong) == nullptr);
     CHECK_THROWS_AS(store.jobs.build(wrong, "page", 1), RecipeMistakes);
-    store.jobs.cancel_all();
-    CHECK(store.jobs.build_ahead(foam) == nullptr);
+    const auto cancel = std::make_shared<CancelToken>();
+    cancel->cancel();
+    CHECK(store.jobs.build_ahead(foam, "", cancel) == nullptr);
+}
+
+TEST_CASE("what is looked at next is computed ahead, and given up for what comes after", "[server]") {
+    Store store;
+    JobsAhead ahead(store.jobs, 2);
+    const auto is_held = [&](const std::string& id) {
+        return wait_for(20, [&] {
+            try {
+                return store.jobs.find(id) != nullptr;
+            } catch (const HttpError&) {
+                return false;
+            }
+        });
+    };
+    const auto id_of = [&](const std::string& text) {
+        return served_job_id(read_served_recipe(text, store.folder), text);
+    };
+    ahead.begin({foam + "[foam]\n", "page", 3});  // wrong: nobody is told
+    ahead.begin({foam, "page", 1000});
+    REQUIRE(is_held(id_of(foam)));
+    // Of a job that takes long only the next one is left, and its end is not waited for.
+    std::string slow = foam;
+    slow.replace(slow.find("radius = 5"), 10, "radius = 60");
+    slow += "[repair]\ntrim = 0.2\n";
+    ahead.begin({slow, "page", 0});
+    ahead.begin({foam + "# next\n", "page", {}});
+    REQUIRE(is_held(id_of(foam + "# next\n")));
+    CHECK_THROWS_AS(store.jobs.find(id_of(slow)), HttpError);
+    // A job that is asked for gives up the building of another one.
+    ahead.begin({slow, "page", 0});
+    CHECK(store.jobs.build(foam + "# asked\n", "page", 1));
+    ahead.end();
+    ahead.begin({foam + "# late\n", "page", 0});
+    CHECK_THROWS_AS(store.jobs.find(id_of(slow)), HttpError);
+    CHECK_THROWS_AS(store.jobs.find(id_of(foam + "# late\n")), HttpError);
 }
 
 TEST_CASE("the coarse volume of a job is computed once", "[server]") {
