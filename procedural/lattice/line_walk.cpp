@@ -29,36 +29,45 @@ struct Pair {
 /// A pair with a sign change between its points, under refinement.
 class Turn {
   public:
-    explicit Turn(const Pair& pair) : pair_(pair) {}
+    explicit Turn(const Pair& pair) : pair_(pair), weight0_(pair.v0), weight1_(pair.v1) {}
 
     std::size_t line() const { return pair_.line; }
+    double begin() const { return pair_.u0; }
     bool into_solid() const { return !(pair_.v0 < 0); }
     bool is_found() const { return found_ || pair_.gap() <= precise; }
     double at() const { return found_ ? at_ : pair_.middle(); }
 
-    /// Returns the next point to evaluate: by secant steps while they converge, else by bisection.
+    /// Returns the next point to evaluate: by false position (Illinois) while that converges, else by
+    /// bisection.
     double next(int round) {
         slope_ = (pair_.v1 - pair_.v0) / pair_.gap();
-        const double secant = pair_.u0 - pair_.v0 / slope_;
-        halves_ = round % 3 == 2 || !(pair_.u0 < secant && secant < pair_.u1);
-        at_ = halves_ ? pair_.middle() : secant;
+        const double between = pair_.u0 + pair_.gap() * (weight0_ / (weight0_ - weight1_));
+        halves_ = round % 8 == 7 || !(pair_.u0 < between && between < pair_.u1);
+        at_ = halves_ ? pair_.middle() : between;
         return at_;
     }
     void take(double value) {
         found_ = !halves_ && std::abs(value) < precise * std::abs(slope_);
         if (found_) return;
+        // The weight of an end that stays twice is halved, so that the next point falls beyond the root.
         if ((value < 0) == (pair_.v0 < 0)) {
             pair_.u0 = at_;
-            pair_.v0 = value;
+            weight0_ = pair_.v0 = value;
+            weight1_ = kept_ == 1 ? weight1_ / 2 : pair_.v1;
+            kept_ = 1;
         } else {
             pair_.u1 = at_;
-            pair_.v1 = value;
+            weight1_ = pair_.v1 = value;
+            weight0_ = kept_ == 0 ? weight0_ / 2 : pair_.v0;
+            kept_ = 0;
         }
     }
 
   private:
     Pair pair_;
+    double weight0_, weight1_;  // of the ends
     double at_ = 0, slope_ = 0;
+    int kept_ = -1;  // which end stayed at the last step
     bool halves_ = false, found_ = false;
 };
 
@@ -73,7 +82,9 @@ class ValueWalk {
 
     void run(RunRows& out) {
         evaluate_stretches();
+        found_in_stretches_ = turns_.size();
         while (!pairs_.empty()) halve();
+        sort_turns();
         narrow();
         append(out);
     }
@@ -102,14 +113,14 @@ class ValueWalk {
         }
     }
 
-    /// Keeps a pair if there is, or may be, a sign change between its points. All pairs have the same length
-    /// at a time, so sign changes are found in order.
+    /// Keeps a pair if there is, or may be, a sign change between its points.
     void consider(const Pair& pair) {
         const bool turns = pair.turns();
-        if (pair.gap() <= smallest_step) {
-            if (turns) turns_.emplace_back(pair);
-        } else if (turns || !is_proven(pair)) {
+        if (!turns && is_proven(pair)) return;
+        if (pair.gap() > smallest_step && !function_.is_monotone(pair.line, pair.u0, pair.u1)) {
             pairs_.push_back(pair);
+        } else if (turns) {
+            turns_.emplace_back(pair);
         }
     }
 
@@ -117,6 +128,14 @@ class ValueWalk {
     /// NaN.
     bool is_proven(const Pair& pair) const {
         return std::abs(pair.v0) + std::abs(pair.v1) >= steepest_[pair.line - first_] * pair.gap();
+    }
+
+    /// Those found in whole stretches are in order, and most of all.
+    void sort_turns() {
+        const auto place = [](const Turn& turn) { return std::pair(turn.line(), turn.begin()); };
+        const auto rest = turns_.begin() + static_cast<std::ptrdiff_t>(found_in_stretches_);
+        std::ranges::sort(rest, turns_.end(), {}, place);
+        std::ranges::inplace_merge(turns_.begin(), rest, turns_.end(), {}, place);
     }
 
     void halve() {
@@ -171,6 +190,7 @@ class ValueWalk {
     std::vector<Pair> pairs_;   // with possible sign changes between their points
     std::vector<Pair> wholes_;  // the pairs that pairs_ are halves of
     std::vector<Turn> turns_;
+    std::size_t found_in_stretches_ = 0;
 };
 
 }  // namespace

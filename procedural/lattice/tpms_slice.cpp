@@ -12,6 +12,7 @@ namespace lamella {
 namespace {
 
 constexpr int columns_at_once = 64;
+constexpr double same_thickness = 1e-9;  // mm: rounding of a thickness that depends on z alone
 
 Interval along(const Rect& rect, Axis axis) {
     return axis == Axis::x ? Interval{rect.lo.x, rect.hi.x} : Interval{rect.lo.y, rect.hi.y};
@@ -23,7 +24,29 @@ Rect region_at(const Box& region, double z) {
     return region.lo.z <= z && z <= region.hi.z ? region.rect() : Rect{};
 }
 
-/// The solid's value along the lines of a band; `plane` may be null.
+/// g along a line.
+struct WaveLine {
+    Wave wave;
+    double steepest;  ///< maximum slope, as a share of the maximum gradient of g
+    double crest;     ///< angle of its maximum, turns
+
+    WaveLine(const Wave& along, double steepest_wave) : wave(along), steepest(0), crest(0) {
+        const double amplitude = wave.amplitude();
+        if (!(amplitude > 0)) return;
+        steepest = amplitude / steepest_wave;
+        crest = turns_of(wave.cosine / amplitude, wave.sine / amplitude);
+    }
+    /// Whether the slope is greater than `change` all the way between two angles in turns.
+    bool is_steeper(double from, double to, double change) const {
+        // It is a sine of the angle from the crest, and a sine lies above its chords.
+        const double a = 2 * (from - crest), b = 2 * (to - crest), half = std::floor(a);
+        if (std::floor(b) != half) return false;
+        return 2 * steepest * std::min(a - half, half + 1 - b) > change;
+    }
+};
+
+/// The solid's value along the lines of a band; `plane` is of a sheet with a constant period, and may be
+/// null.
 class TpmsLines : public LineFunction {
   public:
     TpmsLines(const TpmsSolid& solid, const RowBand& band, const std::vector<int>& lines, double z,
@@ -34,9 +57,15 @@ class TpmsLines : public LineFunction {
           z_(z),
           unit_(std::abs(band.along_pitch) / run_unit) {
         const double period = solid.period(), center = solid.center()[1 - along_];
+        const bool has_waves = solid.has_constant_period() && solid.wall() == nullptr;
+        const SineCosine height = TpmsSolid::angle(z - solid.center().z, period);
         for (const int l : lines) {
             places_.push_back(band.line(l));
-            if (plane != nullptr) walls_.emplace_back(*plane, band.axis, (places_.back() - center) / period);
+            const double across = places_.back() - center;
+            if (plane != nullptr) walls_.emplace_back(*plane, band.axis, across / period);
+            if (!has_waves) continue;
+            const SineCosine turn = TpmsSolid::angle(across, period);
+            waves_.emplace_back(tpms_wave(solid.kind(), band.axis, turn, height), solid.steepest_wave());
         }
     }
 
@@ -47,24 +76,53 @@ class TpmsLines : public LineFunction {
             places[i][along_] = band_.along(points[i].u);
             places[i][1 - along_] = places_[points[i].line];
         }
-        if (walls_.empty()) return solid_.bounds(places, out);
-        const double period = solid_.period(), center = solid_.center()[along_];
+        if (walls_.empty() && waves_.empty()) return solid_.bounds(places, out);
         solid_.thicknesses(places, out);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const double turns = (places[i][along_] - center) / period;
-            const double half = TpmsSolid::half_angle(out[i], period);
-            out[i] = walls_[points[i].line].bound(turns, half) * (period / (2 * pi));
+        if (waves_.empty()) {
+            wall_values(points, places, out);
+        } else {
+            network_values(points, places, out);
         }
     }
     double steepest(std::size_t /*line*/) const override { return unit_ * solid_.steepest(along_); }
+    bool is_monotone(std::size_t line, double u0, double u1) const override {
+        if (walls_.empty() && waves_.empty()) return false;
+        double from = turns_at(band_.along(u0)), to = turns_at(band_.along(u1));
+        if (from > to) std::swap(from, to);
+        const double change = solid_.graded_change(along_);
+        return waves_.empty() ? walls_[line].is_monotone(from, to, change)
+                              : waves_[line].is_steeper(from, to, change);
+    }
 
   private:
+    /// `out`: the thicknesses, and after it the values.
+    void wall_values(std::span<const LinePoint> points, std::span<const dvec3> places,
+                     std::span<double> out) const {
+        const double period = solid_.period();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double half = TpmsSolid::half_angle(out[i], period);
+            out[i] = walls_[points[i].line].bound(turns_at(places[i][along_]), half) * (period / (2 * pi));
+        }
+    }
+    void network_values(std::span<const LinePoint> points, std::span<const dvec3> places,
+                        std::span<double> out) const {
+        std::vector<double> angles(points.size());
+        std::vector<SineCosine> turns(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) angles[i] = turns_at(places[i][along_]) * (2 * pi);
+        sines_cosines(angles, turns);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            out[i] = solid_.network_value(waves_[points[i].line].wave.at(turns[i]), out[i]);
+    }
+    double turns_at(double place) const { return (place - solid_.center()[along_]) / solid_.period(); }
+
     const TpmsSolid& solid_;
     const RowBand& band_;
     int along_;
     double z_, unit_;
-    std::vector<double> places_;   // of the lines, mm
-    std::vector<WallLine> walls_;  // along the lines, where they can be tabulated
+    std::vector<double> places_;  // of the lines, mm
+    // Along the lines, if the period is constant: the distance from a sheet, or g of a network.
+    std::vector<WallLine> walls_;
+    std::vector<WaveLine> waves_;
 };
 
 }  // namespace
@@ -77,19 +135,23 @@ TpmsSlice::TpmsSlice(const Field& field, const TpmsSolid& solid, double z)
       height_(TpmsSolid::angle(z - solid.center().z, solid.period())) {
     if (solid.wall() != nullptr && solid.has_constant_period() && !region_.empty())
         plane_.emplace(*solid.wall(), height_);
+    if (solid.has_constant_period() && !region_.empty()) {
+        const Interval thickness = solid.thickness_over({{region_.lo, z}, {region_.hi, z}});
+        if (thickness.width() <= same_thickness) thickness_ = solid.thickness_at({region_.center(), z});
+    }
 }
 
 void TpmsSlice::runs(const RowBand& band, Scratch& /*scratch*/, RunRows& out) const {
     out.clear();
-    if (solid_.is_constant()) {
-        closed_spans(band, out);
+    if (thickness_) {
+        closed_spans(band, *thickness_, out);
     } else {
         walked_spans(band, out);
     }
 }
 
-void TpmsSlice::closed_spans(const RowBand& band, RunRows& out) const {
-    const double period = solid_.period();
+void TpmsSlice::closed_spans(const RowBand& band, double thickness, RunRows& out) const {
+    const double period = solid_.period(), half_angle = TpmsSolid::half_angle(thickness, period);
     const int along_axis = band.axis == Axis::x ? 0 : 1, across_axis = 1 - along_axis;
     const Interval lines = across(region_, band.axis), extent = along(region_, band.axis);
     // One pixel more than the band, because runs are clipped after rounding.
@@ -102,10 +164,10 @@ void TpmsSlice::closed_spans(const RowBand& band, RunRows& out) const {
         if (lines.contains(place)) {
             const double distance = place - solid_.center()[across_axis];
             if (plane_) {
-                WallLine(*plane_, band.axis, distance / period).find_runs(solid_.central_half(), parts);
+                WallLine(*plane_, band.axis, distance / period).find_runs(half_angle, parts);
             } else {
                 const SineCosine turn = TpmsSolid::angle(distance, period);
-                solid_.find_network_runs(band.axis, turn, height_, parts);
+                solid_.find_network_runs(band.axis, turn, height_, thickness, parts);
             }
             append_periodic_runs(parts, solid_.center()[along_axis], period, clip, intervals);
         }

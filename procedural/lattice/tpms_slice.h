@@ -1,5 +1,5 @@
 // TpmsSlice: the slice of a triply periodic solid, with runs of one period, repeated, if period and
-// thickness are constant.
+// thickness are constant in its plane.
 #pragma once
 
 #include "engine/field/tile_walk.h"
@@ -17,7 +17,7 @@ class TpmsSlice : public SampledSlice {
     void sample(const Tile& tile, std::span<float> out) const override;
 
   private:
-    void closed_spans(const RowBand& band, RunRows& out) const;
+    void closed_spans(const RowBand& band, double thickness, RunRows& out) const;
     void walked_spans(const RowBand& band, RunRows& out) const;
     void sample_row(const Tile& tile, int first, std::span<const SineCosine> columns, double y,
                     std::span<float> out) const;
@@ -26,7 +26,8 @@ class TpmsSlice : public SampledSlice {
     double z_;
     Rect region_;  ///< empty at heights outside the region
     SineCosine height_;
-    std::optional<WallPlane> plane_;  ///< of a sheet with a constant period
+    std::optional<WallPlane> plane_;   ///< of a sheet with a constant period
+    std::optional<double> thickness_;  ///< where it is the same in all of the plane, as is the period, mm
 };
 
 }  // namespace lamella

@@ -81,9 +81,9 @@ double TpmsSolid::value_at(const TpmsPoint& point, double period, double thickne
     return (tpms_sample(kind(), point).g - network_->level(half)) * (scale / g_.steepest);
 }
 
-void TpmsSolid::find_network_runs(Axis axis, const SineCosine& across, const SineCosine& z,
+void TpmsSolid::find_network_runs(Axis axis, const SineCosine& across, const SineCosine& z, double thickness,
                                   std::vector<Interval>& out) const {
-    const double level = network_->level(central_half());
+    const double level = network_->level(half_angle(thickness, period_));
     const WaveRuns runs = wave_runs(tpms_wave(kind(), axis, across, z), {-infinity, level});
     out.assign(runs.parts().begin(), runs.parts().end());
 }

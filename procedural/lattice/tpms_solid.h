@@ -25,6 +25,10 @@ class TpmsSolid {
     double period_at(dvec3 p) const { return constant_period_ ? period_ : settings_.period->at(p); }
     /// Half of a thickness, in radians.
     static double half_angle(double thickness, double period) { return turn / 2 * thickness / period; }
+    /// Returns the value of a network with the central period where g has this value, mm.
+    double network_value(double g, double thickness) const {
+        return (g - network_->level(half_angle(thickness, period_))) * (period_ / (turn * g_.steepest));
+    }
     /// The wall of a sheet; null for a network.
     const TpmsWall* wall() const { return network_ ? nullptr : &wall_; }
     double thickness_at(dvec3 p) const {
@@ -47,12 +51,14 @@ class TpmsSolid {
     /// Returns an upper bound of the change of the value per mm along a line parallel to `axis` (0 to 2). The
     /// contribution of gradings is estimated from their differences on a lattice over the region.
     double steepest(int axis) const { return 1 + graded_change_[axis]; }
-    /// Finds the turns in which one period of a line of a network is solid, as wave_runs() does. Period and
-    /// thickness are those at the region's centre.
-    void find_network_runs(Axis axis, const SineCosine& across, const SineCosine& z,
+    /// Returns how much of that gradings contribute.
+    double graded_change(int axis) const { return graded_change_[axis]; }
+    /// The maximum gradient of g.
+    double steepest_wave() const { return g_.steepest; }
+    /// Finds the turns in which one period of a line of a network with struts of this thickness is solid, as
+    /// wave_runs() does. The period is that at the region's centre.
+    void find_network_runs(Axis axis, const SineCosine& across, const SineCosine& z, double thickness,
                            std::vector<Interval>& out) const;
-    /// Half of the thickness at the region's centre, in radians.
-    double central_half() const { return half_angle(thickness_, period_); }
 
     double value(dvec3 p) const;
     void values(std::span<const dvec3> points, std::span<double> out) const;

@@ -45,6 +45,18 @@ WallLine::WallLine(const WallPlane& plane, Axis axis, double across) : plane_(&p
                                    hermite(a.along_y, a.mixed, b.along_y, b.mixed, t), true};
     }
     nodes_.back() = nodes_.front();
+    find_slopes();
+}
+
+/// The derivative of a cubic lies between the coefficients of its Bernstein form.
+void WallLine::find_slopes() {
+    for (std::size_t i = 0; i < parts; ++i) {
+        const Node &a = nodes_[i], &b = nodes_[i + 1];
+        const double middle = 3 * (b.distance - a.distance) - a.slope - b.slope;
+        const double least = std::min({a.slope, middle, b.slope}),
+                     most = std::max({a.slope, middle, b.slope});
+        slopes_[i] = !a.known || !b.known ? 0 : least > 0 ? least : std::min(most, 0.0);
+    }
 }
 
 /// Where a node is not known: `least` is a lower bound of the distance; `turns` is within [0, 1].
@@ -62,6 +74,21 @@ double WallLine::bound(double turns, double half) const {
     if (!a.known || !b.known)
         return untabulated(turn, half, least_between(std::abs(a.distance), std::abs(b.distance), t));
     return std::abs(hermite(a.distance, a.slope, b.distance, b.slope, t)) - half;
+}
+
+bool WallLine::is_monotone(double from, double to, double change) const {
+    if (to - from >= 1) return false;
+    const double first = std::floor(from * parts), last = std::floor(to * parts);
+    auto i = static_cast<std::size_t>(first - std::floor(first / parts) * parts);
+    const double least = change * WallPlane::step;
+    const bool rises = slopes_[i] > 0;
+    const bool outside = nodes_[i].distance > 0;
+    for (double piece = first; piece <= last; ++piece, i = i + 1 < parts ? i + 1 : 0) {
+        if (!(rises ? slopes_[i] > least : slopes_[i] < -least)) return false;
+        // The distance turns where the line crosses the surface.
+        if ((nodes_[i + 1].distance > 0) != outside) return false;
+    }
+    return true;
 }
 
 double WallLine::bound_at(std::size_t node, double half) const {

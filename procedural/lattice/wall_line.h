@@ -19,6 +19,9 @@ class WallLine {
 
     /// Returns what TpmsWall::bound() does at an angle in turns along the line.
     double bound(double turns, double half) const;
+    /// Whether bound() certainly rises, or falls, all the way between two angles in turns, first the lower
+    /// one, where the half thickness changes by `change` per radian at most.
+    bool is_monotone(double from, double to, double change) const;
     /// Finds the turns, ascending and within [-1, 1], in which one period lies in the wall; one infinite
     /// interval if all of it does. Wall and openings thinner than 1/224 of the period may be missed.
     void find_runs(double half, std::vector<Interval>& out) const;
@@ -31,6 +34,7 @@ class WallLine {
     };
     static constexpr int parts = WallPlane::parts;
 
+    void find_slopes();
     double untabulated(double turns, double half, double least) const;
     double bound_at(std::size_t node, double half) const;
     void find_crossings(Interval turns, Interval values, double half, int depth,
@@ -41,6 +45,7 @@ class WallLine {
     Axis axis_;
     SineCosine across_;
     std::array<Node, parts + 1> nodes_;
+    std::array<double, parts> slopes_;  ///< least slope of a piece, per step; 0 if it rises and falls
 };
 
 }  // namespace lamella

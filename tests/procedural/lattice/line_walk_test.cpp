@@ -1,6 +1,7 @@
 // Runs found by walking a line, against functions whose zeros are known.
 #include "procedural/lattice/line_walk.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -70,6 +71,37 @@ TEST_CASE("a walk finds all that is wider than a quarter pixel, to the unit", "[
         }
         CHECK(walk(beads, 1, 3, 50) == expected);
     }
+}
+
+TEST_CASE("a walk that knows where its function is monotone finds the same in fewer points", "[line_walk]") {
+    /// A sine with a slow drift; where the sine is steeper than the drift, it is monotone.
+    class Known : public LineFunction {
+      public:
+        explicit Known(bool tells) : tells_(tells) {}
+        void values(std::span<const LinePoint> points, std::span<double> out) const override {
+            count += points.size();
+            for (std::size_t i = 0; i < points.size(); ++i)
+                out[i] = std::sin(points[i].u / 4000) + 0.00003 * points[i].u - 0.5;
+        }
+        double steepest(std::size_t /*line*/) const override { return 1.0 / 4000 + 0.00003; }
+        bool is_monotone(std::size_t /*line*/, double u0, double u1) const override {
+            const double half_wave = std::floor(u0 / 4000 / pi - 0.5);
+            return tells_ && std::floor(u1 / 4000 / pi - 0.5) == half_wave &&
+                   std::min(std::abs(std::cos(u0 / 4000)), std::abs(std::cos(u1 / 4000))) / 4000 > 0.00003;
+        }
+        mutable std::size_t count = 0;
+
+      private:
+        bool tells_;
+    };
+    const Known silent(false), telling(true);
+    RunRows without, with;
+    walk_lines(silent, 2, 0, 300 * run_unit, without);
+    walk_lines(telling, 2, 0, 300 * run_unit, with);
+    CHECK(without.runs().size() > 4);
+    CHECK(std::ranges::equal(without.runs(), with.runs()));
+    CHECK(with.lines() == without.lines());
+    CHECK(telling.count * 10 < silent.count * 7);
 }
 
 TEST_CASE("what a walk finds does not depend on where it begins and ends", "[line_walk]") {

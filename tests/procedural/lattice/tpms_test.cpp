@@ -380,16 +380,18 @@ TEST_CASE("a network's struts have the thickness asked for, and no more where th
 
 TEST_CASE("a solid with one graded number has the runs of its definition", "[tpms]") {
     const Box region{{-4, -3, -2}, {4, 3, 2}};
-    for (const bool graded_period : {false, true}) {
+    for (const std::string graded : {"thickness", "period", "thickness by height"}) {
         for (const bool network : {false, true}) {
             for (const TpmsKind kind : kinds) {
-                INFO("kind " << static_cast<int>(kind) << (network ? ", network" : ", sheet")
-                             << (graded_period ? ", period" : ", thickness"));
+                INFO("kind " << static_cast<int>(kind) << (network ? ", network" : ", sheet") << ", "
+                             << graded);
                 TpmsSettings s = settings(kind, network, 2.5, 0.3, region);
-                if (graded_period) {
+                if (graded == "period") {
                     s.period = std::make_shared<Linear>(2.5, dvec3(0.1, 0.05, -0.1));
                 } else {
-                    s.thickness = std::make_shared<Linear>(0.3, dvec3(0.05, 0.02, 0));
+                    const bool by_height = graded != "thickness";
+                    const dvec3 slope = by_height ? dvec3(0, 0, 0.05) : dvec3(0.05, 0.02, 0);
+                    s.thickness = std::make_shared<Linear>(0.3, slope);
                 }
                 const auto field = make_tpms(s);
                 CHECK(field->metric() == Metric::sign);
