@@ -15,9 +15,10 @@ namespace lamella {
 class JobsAhead {
   public:
     struct Look {
-        std::string text;          ///< of the recipe
-        std::string session;       ///< is told how far the build is
-        std::optional<int> layer;  ///< that will be asked for, or the one nearest to it; none: the coarse volume
+        std::string text;     ///< of the recipe
+        std::string session;  ///< is told how far the build is
+        std::optional<int>
+            layer;  ///< that will be asked for, or the one nearest to it; none: the coarse volume
     };
 
     /// `threads` is for the volume; 0: one per core.

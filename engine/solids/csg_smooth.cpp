@@ -31,10 +31,11 @@ Metric metric_of(const Field& a, const Field& b) {
 }
 
 /// The part that a smooth union has, or a smooth difference lacks, in addition to its operands' own runs:
-/// where the smooth minimum of a's value and the tool's is negative, at most `radius` outside the tool.
-/// Outside both solids it is negative only where neither value exceeds the radius, so `a` is not evaluated
-/// elsewhere. Farther outside, the value is the distance to the zone where it may be negative. The jump at
-/// the zone's border lies inside a, or does not invalidate a proof.
+/// where the smooth minimum of a's value and the tool's is negative, at most `radius` outside the tool, and
+/// the tool itself. Outside both solids it is negative only where neither value exceeds the radius, so `a` is
+/// not evaluated elsewhere: farther outside, the value is the distance to the zone where it may be negative;
+/// inside the tool, it is the tool's. The jumps at the zone's borders lie inside a or the tool, or do not
+/// invalidate a proof. Ranges leave out what lies in the operands' own runs.
 class Seam : public Field {
   public:
     Seam(const Field& a, bool inverted, const Field& tool, double radius)
@@ -43,7 +44,7 @@ class Seam : public Field {
     double value(dvec3 p) const override {
         const double tool = tool_.value(p);
         if (!(tool < radius_)) return tool - radius_;
-        if (tool <= -radius_) return tool;
+        if (tool < 0) return tool;
         return blended(a_.value(p), tool);
     }
     void values(std::span<const dvec3> points, std::span<double> out) const override {
@@ -53,7 +54,7 @@ class Seam : public Field {
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!(out[i] < radius_)) {
                 out[i] -= radius_;
-            } else if (out[i] > -radius_) {
+            } else if (!(out[i] < 0)) {
                 near.push_back(points[i]);
                 places.push_back(i);
             }
@@ -64,12 +65,13 @@ class Seam : public Field {
     }
     bool takes_many() const override { return a_.takes_many() || tool_.takes_many(); }
     Interval range(const Box& box) const override {
+        const Interval nothing{radius_, radius_};
         const Interval tool = tool_.range(box);
-        if (tool.hi < 0) return {tool.lo - radius_ * 0.25, tool.hi};
+        if (tool.hi < 0) return nothing;
         if (tool.lo >= radius_) return {tool.lo - radius_, tool.hi - radius_};
-        const Interval a = a_.range(box), near{tool.lo, std::min(tool.hi, radius_)};
-        Interval all = smooth_min(inverted_ ? Interval{-a.hi, -a.lo} : a, near, radius_);
-        if (tool.lo <= -radius_) all.hi = std::max(all.hi, -radius_);
+        const Interval of_a = a_.range(box), a = inverted_ ? Interval{-of_a.hi, -of_a.lo} : of_a;
+        if (a.hi < 0 || a.lo >= radius_) return nothing;
+        Interval all = smooth_min(a, {std::max(tool.lo, 0.0), std::min(tool.hi, radius_)}, radius_);
         if (tool.hi >= radius_) all = {std::min(all.lo, 0.0), std::max(all.hi, tool.hi - radius_)};
         return all;
     }
