@@ -7,9 +7,10 @@ namespace lamella {
 namespace {
 
 constexpr int quarter = run_unit / 4;
-constexpr int cells_per_unit = 16;  // resolution of a crossing: 1/16 of a run unit
-constexpr int guesses = 3;          // rounds of interpolation before bisection
-constexpr int guesses_of_one = 6;   // the same when a line has one crossing at most
+constexpr int coarsest = 8 * run_unit;  // between samples at first
+constexpr int cells_per_unit = 16;      // resolution of a crossing: 1/16 of a run unit
+constexpr int guesses = 3;              // rounds of interpolation before bisection
+constexpr int guesses_of_one = 6;       // the same when a line has one crossing at most
 
 }  // namespace
 
@@ -76,7 +77,10 @@ void TileSampler::sample(std::span<const BandTile> tiles) {
     const bool by_signs = metric_ == Metric::sign && std::ranges::any_of(tiles, [](const BandTile& tile) {
                               return !tile.full && tile.deviation == infinity;
                           });
-    const int step = by_signs ? quarter : run_unit;
+    int step = by_signs ? quarter : coarsest;
+    while (std::ranges::any_of(tiles,
+                               [&](const BandTile& tile) { return (end(tile) - begin(tile)) % step != 0; }))
+        step /= 2;
     ask_samples(tiles, step);
     read_samples(tiles, step);
     for (int gap = step; gap > quarter; gap /= 2) split();

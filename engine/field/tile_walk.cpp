@@ -10,12 +10,13 @@
 namespace lamella {
 namespace {
 
-constexpr int leaf_lines = 8;
+constexpr int leaf_lines = 16;
 constexpr int leaf_pixels = 8;
 constexpr int one_way_pixels = 16;  // larger tiles are not asked for their slope
 // As many as keep their samples in a processor's second-level cache, at 264 samples a tile when all quarter
 // pitches are sampled at once.
-constexpr std::size_t tiles_at_once = 64;
+constexpr std::size_t tiles_at_once = 128;          // with two samples a line to begin with
+constexpr std::size_t tiles_at_once_by_signs = 32;  // with a sample every quarter pitch
 
 /// Returns the tile that covers the whole band; empty when the band has no pixels or lines.
 BandTile whole(const RowBand& band) {
@@ -86,7 +87,10 @@ class NarrowingWalk {
 class EvenWalk {
   public:
     EvenWalk(BatchSampledSolid& solid, Metric metric, const RowBand& band)
-        : solid_(solid), band_(band), sampler_(solid, metric, band) {}
+        : solid_(solid),
+          band_(band),
+          at_once_(metric == Metric::sign ? tiles_at_once_by_signs : tiles_at_once),
+          sampler_(solid, metric, band) {}
 
     void walk(RunRows& out) {
         if (const BandTile tile = whole(band_); tile.height > 0) level_.push_back(tile);
@@ -94,8 +98,8 @@ class EvenWalk {
         std::sort(found_.begin(), found_.end(), [](const BandTile& a, const BandTile& b) {
             return std::tie(a.lo, a.first) < std::tie(b.lo, b.first);
         });
-        for (std::size_t i = 0; i < found_.size(); i += tiles_at_once) {
-            sampler_.sample(std::span(found_).subspan(i, std::min(tiles_at_once, found_.size() - i)));
+        for (std::size_t i = 0; i < found_.size(); i += at_once_) {
+            sampler_.sample(std::span(found_).subspan(i, std::min(at_once_, found_.size() - i)));
         }
         sampler_.append_to(out);
     }
@@ -126,6 +130,7 @@ class EvenWalk {
 
     BatchSampledSolid& solid_;
     const RowBand& band_;
+    std::size_t at_once_;  ///< tiles that are sampled together
     TileSampler sampler_;
     std::vector<BandTile> level_, next_;
     std::vector<BandTile> found_;  ///< full tiles, and leaves to be sampled
