@@ -13,7 +13,7 @@ namespace {
 constexpr int leaf_lines = 16;
 constexpr int leaf_pixels = 8;
 constexpr int one_way_pixels = 16;  // larger tiles are not asked for their slope
-// As many as keep their samples in a processor's second-level cache, at 264 samples a tile when all quarter
+// As many as keep their samples in a processor's second-level cache, at 528 samples a tile when all quarter
 // pitches are sampled at once.
 constexpr std::size_t tiles_at_once = 128;          // with two samples a line to begin with
 constexpr std::size_t tiles_at_once_by_signs = 32;  // with a sample every quarter pitch

@@ -105,7 +105,9 @@ void WallLine::find_runs(double half, std::vector<Interval>& out) const {
     for (std::size_t i = 0; i < parts; ++i) {
         const double next = i + 1 < parts ? bound_at(i + 1, half) : first;
         const auto begin = static_cast<double>(i), end = begin + 1;
-        find_crossings({begin / parts, end / parts}, {last, next}, half, halvings, ends);
+        // A piece that rises or falls, on one side of the surface, has one crossing at most.
+        const bool one = slopes_[i] != 0 && (nodes_[i].distance > 0) == (nodes_[i + 1].distance > 0);
+        find_crossings({begin / parts, end / parts}, {last, next}, half, one ? 0 : halvings, ends);
         last = next;
     }
     const bool inside = first < 0;
