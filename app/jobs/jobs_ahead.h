@@ -17,8 +17,8 @@ class JobsAhead {
     struct Look {
         std::string text;     ///< of the recipe
         std::string session;  ///< is told how far the build is
-        std::optional<int>
-            layer;  ///< that will be asked for, or the one nearest to it; none: the coarse volume
+        /// The layer that will be asked for, clamped to those of the job; none: the coarse volume.
+        std::optional<int> layer;
     };
 
     /// `threads` is for the volume; 0: one per core.
