@@ -8,10 +8,6 @@
 
 namespace lamella {
 
-namespace {
-
-/// Returns the slope of the distance at a site, at most 1: that of the plane that fits best to its
-/// neighbours.
 dvec3 slope_at(const SurfaceSites& sites, std::span<const float> distances, std::size_t site) {
     const dvec3 t = sites.tangents[site], b = glm::cross(sites.normals[site], t);
     double xx = 0, xy = 0, yy = 0, xv = 0, yv = 0;
@@ -32,8 +28,6 @@ dvec3 slope_at(const SurfaceSites& sites, std::span<const float> distances, std:
     const double steepness = std::sqrt(glm::dot(slope, slope));
     return steepness > 1 ? slope / steepness : slope;
 }
-
-}  // namespace
 
 CarriedDistance::CarriedDistance(const SurfaceSites& sites, std::span<const float> distances)
     : sites_(sites), distances_(distances), slopes_(sites.size()) {

@@ -8,6 +8,10 @@
 
 namespace lamella {
 
+/// Returns the slope of a number of sites at one of them, at most 1: that of the plane that fits best to its
+/// neighbours. The tangents of the sites are needed.
+dvec3 slope_at(const SurfaceSites& sites, std::span<const float> distances, std::size_t site);
+
 /// The plane that fits a number best at each site, and the mean of the planes near a point.
 class CarriedDistance {
   public:

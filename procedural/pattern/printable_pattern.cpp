@@ -9,6 +9,7 @@
 #include "procedural/pattern/least_widths.h"
 #include "procedural/pattern/pattern_pieces.h"
 #include "procedural/pattern/site_distance.h"
+#include "procedural/pattern/thin_walls.h"
 #include "procedural/texture/pattern_levels.h"
 
 namespace lamella {
@@ -19,6 +20,7 @@ std::vector<float> cut(const SurfaceSites& sites, const SiteWindows& windows, co
                        float threshold, const PrintSettings& settings) {
     std::vector<float> distances;
     for (const float distance : pattern.distance) distances.push_back(distance - threshold);
+    share_across(sites, distances);
     const double limit = std::max(settings.strut, settings.gap) + 4 * sites.spacing;
     distances = signed_distances(sites, distances, limit);
     const auto change_sign = [&] {
@@ -29,7 +31,9 @@ std::vector<float> cut(const SurfaceSites& sites, const SiteWindows& windows, co
         distances = signed_distances(sites, with_least_width(sites, windows, distances, settings.gap), limit);
         change_sign();
     }
-    return with_least_width(sites, windows, distances, settings.strut);
+    distances = with_least_width(sites, windows, distances, settings.strut);
+    share_across(sites, distances);
+    return distances;
 }
 
 /// Drops small pieces but the largest one, and returns how many.
@@ -92,6 +96,7 @@ void add_struts(const SurfaceSites& sites, std::span<const SiteLine> lines, doub
     if (points.empty()) return;
     const std::vector<float> struts = struts_along(sites, points, strut, strut + 4 * sites.spacing);
     for (std::size_t i = 0; i < struts.size(); ++i) distances[i] = std::max(distances[i], struts[i]);
+    share_across(sites, distances);
 }
 
 PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows& windows,

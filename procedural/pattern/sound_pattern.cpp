@@ -5,10 +5,31 @@
 #include <utility>
 
 #include "procedural/pattern/least_widths.h"
+#include "procedural/pattern/thin_walls.h"
 
 namespace lamella {
 
 namespace {
+
+/// Gives the backs of thin walls the pattern of their fronts.
+void copy_to_backs(const SurfaceSites& sites, std::span<const std::uint32_t> backs, SitePattern& pattern) {
+    copy_across(sites, backs, pattern.solid);
+    copy_across(sites, backs, pattern.distance);
+}
+
+/// Does so, and synthesises anew what is beside the backs.
+void match_backs(const PatternLevel& level, const Exemplar& exemplar, std::span<const std::uint32_t> backs,
+                 int round, const SynthesisSettings& synthesis, SynthesisResult& found) {
+    if (backs.empty()) return;
+    copy_to_backs(level.sites, backs, found.pattern);
+    std::vector<std::uint8_t> fixed(level.sites.size(), 1);
+    for (const std::uint32_t site : backs) {
+        for (const std::uint32_t beside : level.windows.of(site)) fixed[beside] = 0;
+    }
+    for (const std::uint32_t site : backs) fixed[site] = 1;
+    resynthesise(level.windows, exemplar, fixed, round, synthesis, found);
+    copy_to_backs(level.sites, backs, found.pattern);
+}
 
 /// Puts bridges into a pattern, and synthesises anew what is within a window of the new ones.
 void build(const PatternLevel& level, const Exemplar& exemplar, std::span<const SiteLine> bridges,
@@ -46,6 +67,8 @@ SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, 
     SoundPattern made, best;
     double least = infinity;
     std::vector<SiteLine> bridges;
+    const std::vector<std::uint32_t> backs = back_sites(level.sites);
+    match_backs(level, exemplar, backs, first_round - 1, synthesis, found);
     for (int round = 0;; ++round) {
         stop_if_cancelled(synthesis.cancel);
         made.printed = printable_pattern(level.sites, level.windows, found.pattern, bridges, print);
@@ -68,6 +91,7 @@ SoundPattern sound_pattern(const PatternLevel& level, const Exemplar& exemplar, 
         }
         if (bridges.size() == built) return choice != nullptr ? best : made;
         build(level, exemplar, bridges, built, print.strut, first_round + round, synthesis, found);
+        copy_to_backs(level.sites, backs, found.pattern);
     }
 }
 

@@ -15,6 +15,7 @@
 #include "procedural/pattern/force_bridges.h"
 #include "procedural/pattern/nearest_on_lattice.h"
 #include "procedural/pattern/struts_below.h"
+#include "procedural/pattern/thin_walls.h"
 #include "procedural/texture/body_sites.h"
 
 namespace lamella {
@@ -165,6 +166,7 @@ std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
         level.windows = site_windows(level.sites, synthesis.window);
         levels.push_back(std::move(level));
     }
+    set_across(levels.back().sites, body, 2 * std::min(settings.example.strut, settings.depth));
     return levels;
 }
 

@@ -13,13 +13,17 @@ namespace lamella {
 
 /// The points of a surface on which a pattern is computed.
 struct SurfaceSites {
+    static constexpr std::uint32_t none = 0xffffffff;
+
     double spacing = 1;                   ///< mean distance of neighbours along an axis, mm
     std::vector<dvec3> places;            ///< mm
     std::vector<dvec3> normals;           ///< unit vectors, outward
     std::vector<dvec3> tangents;          ///< unit vectors at right angles to the normals: the pattern's x
     std::vector<std::uint32_t> first;     ///< of each site in `adjacent`, and the end
     std::vector<std::uint32_t> adjacent;  ///< neighbours, site by site
-    dvec3 period{0};                      ///< mm; 0 along axes along which the sites do not repeat
+    /// By site the one on the other side of a thin wall, or `none`; empty where no wall is thin.
+    std::vector<std::uint32_t> across;
+    dvec3 period{0};  ///< mm; 0 along axes along which the sites do not repeat
 
     std::size_t size() const { return places.size(); }
     std::span<const std::uint32_t> neighbours(std::size_t site) const {
