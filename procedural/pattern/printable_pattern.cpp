@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "procedural/pattern/least_widths.h"
 #include "procedural/pattern/pattern_pieces.h"
+#include "procedural/pattern/sharp_edges.h"
 #include "procedural/pattern/site_distance.h"
 #include "procedural/pattern/thin_walls.h"
 #include "procedural/texture/pattern_levels.h"
@@ -16,11 +17,17 @@ namespace lamella {
 
 namespace {
 
+/// Makes solid what would be thin in space: the other side of a thin wall, the other face of an edge.
+void share_solid(const SurfaceSites& sites, std::vector<float>& distances) {
+    share_round_edges(sites, distances);
+    share_across(sites, distances);
+}
+
 std::vector<float> cut(const SurfaceSites& sites, const SiteWindows& windows, const SitePattern& pattern,
                        float threshold, const PrintSettings& settings) {
     std::vector<float> distances;
     for (const float distance : pattern.distance) distances.push_back(distance - threshold);
-    share_across(sites, distances);
+    share_solid(sites, distances);
     const double limit = std::max(settings.strut, settings.gap) + 4 * sites.spacing;
     distances = signed_distances(sites, distances, limit);
     const auto change_sign = [&] {
@@ -32,7 +39,7 @@ std::vector<float> cut(const SurfaceSites& sites, const SiteWindows& windows, co
         change_sign();
     }
     distances = with_least_width(sites, windows, distances, settings.strut);
-    share_across(sites, distances);
+    share_solid(sites, distances);
     return distances;
 }
 
@@ -96,7 +103,7 @@ void add_struts(const SurfaceSites& sites, std::span<const SiteLine> lines, doub
     if (points.empty()) return;
     const std::vector<float> struts = struts_along(sites, points, strut, strut + 4 * sites.spacing);
     for (std::size_t i = 0; i < struts.size(); ++i) distances[i] = std::max(distances[i], struts[i]);
-    share_across(sites, distances);
+    share_solid(sites, distances);
 }
 
 PrintablePattern printable_pattern(const SurfaceSites& sites, const SiteWindows& windows,

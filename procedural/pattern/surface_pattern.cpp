@@ -14,6 +14,7 @@
 #include "procedural/pattern/carried_distance.h"
 #include "procedural/pattern/force_bridges.h"
 #include "procedural/pattern/nearest_on_lattice.h"
+#include "procedural/pattern/sharp_edges.h"
 #include "procedural/pattern/struts_below.h"
 #include "procedural/pattern/thin_walls.h"
 #include "procedural/texture/body_sites.h"
@@ -167,6 +168,7 @@ std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
         levels.push_back(std::move(level));
     }
     set_across(levels.back().sites, body, 2 * std::min(settings.example.strut, settings.depth));
+    set_round_edges(levels.back().sites, 0.5 * settings.example.strut);
     return levels;
 }
 

@@ -23,6 +23,9 @@ struct SurfaceSites {
     std::vector<std::uint32_t> adjacent;  ///< neighbours, site by site
     /// By site the one on the other side of a thin wall, or `none`; empty where no wall is thin.
     std::vector<std::uint32_t> across;
+    /// By site near a sharp edge of the body the nearest one on the other face, or `none`; empty where no
+    /// edge is sharp.
+    std::vector<std::uint32_t> round_edge;
     dvec3 period{0};  ///< mm; 0 along axes along which the sites do not repeat
 
     std::size_t size() const { return places.size(); }
