@@ -19,7 +19,7 @@ namespace {
 
 /// Makes solid what would be thin in space: the other side of a thin wall, the other face of an edge.
 void share_solid(const SurfaceSites& sites, std::vector<float>& distances) {
-    share_round_edges(sites, distances);
+    share_over_edges(sites, distances);
     share_across(sites, distances);
 }
 

@@ -17,7 +17,7 @@ void copy_to_backs(const SurfaceSites& sites, std::span<const std::uint32_t> bac
     copy_across(sites, backs, pattern.distance);
 }
 
-/// Does so, and synthesises anew what is beside the backs.
+/// Gives the backs the pattern of the fronts, and synthesises anew what is beside them.
 void match_backs(const PatternLevel& level, const Exemplar& exemplar, std::span<const std::uint32_t> backs,
                  int round, const SynthesisSettings& synthesis, SynthesisResult& found) {
     if (backs.empty()) return;

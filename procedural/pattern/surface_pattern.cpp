@@ -168,7 +168,7 @@ std::vector<PatternLevel> levels_on(const Field& body, const Example& example,
         levels.push_back(std::move(level));
     }
     set_across(levels.back().sites, body, 2 * std::min(settings.example.strut, settings.depth));
-    set_round_edges(levels.back().sites, 0.5 * settings.example.strut);
+    set_over_edges(levels.back().sites, 0.5 * settings.example.strut);
     return levels;
 }
 

@@ -25,7 +25,7 @@ struct SurfaceSites {
     std::vector<std::uint32_t> across;
     /// By site near a sharp edge of the body the nearest one on the other face, or `none`; empty where no
     /// edge is sharp.
-    std::vector<std::uint32_t> round_edge;
+    std::vector<std::uint32_t> over_edge;
     dvec3 period{0};  ///< mm; 0 along axes along which the sites do not repeat
 
     std::size_t size() const { return places.size(); }

@@ -19,7 +19,7 @@ constexpr double spacing = 0.2, width = 0.5;
 SurfaceSites sites_of(const Field& body) {
     SurfaceSites sites = sites_on_surface(body, spacing, 1'000'000, nullptr);
     set_tangents(sites, nullptr, dvec3(0.3, 1, 0.2), 0);
-    set_round_edges(sites, width);
+    set_over_edges(sites, width);
     return sites;
 }
 
@@ -32,12 +32,12 @@ double to_edge(dvec3 place) {
 
 }  // namespace
 
-TEST_CASE("sites beside a sharp convex edge have one round it", "[texture]") {
+TEST_CASE("sites beside a sharp convex edge have one over it", "[texture]") {
     const FieldPtr box = make_box({dvec3(-3), dvec3(3)});
     const SurfaceSites sites = sites_of(*box);
-    REQUIRE(sites.round_edge.size() == sites.size());
+    REQUIRE(sites.over_edge.size() == sites.size());
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        const std::uint32_t other = sites.round_edge[i];
+        const std::uint32_t other = sites.over_edge[i];
         const double from = to_edge(sites.places[i]);
         if (from < width - spacing) REQUIRE(other != SurfaceSites::none);
         if (from > width) REQUIRE(other == SurfaceSites::none);
@@ -48,13 +48,13 @@ TEST_CASE("sites beside a sharp convex edge have one round it", "[texture]") {
 }
 
 TEST_CASE("round and concave edges are none", "[texture]") {
-    CHECK(sites_of(*make_sphere(dvec3(0), 2)).round_edge.empty());
+    CHECK(sites_of(*make_sphere(dvec3(0), 2)).over_edge.empty());
     const FieldPtr corner = make_difference(make_box({dvec3(-3), dvec3(3)}), make_box({dvec3(0), dvec3(4)}));
     const SurfaceSites sites = sites_of(*corner);
     for (std::size_t i = 0; i < sites.size(); ++i) {
         const dvec3 place = sites.places[i];
         if (glm::all(glm::lessThan(glm::abs(place), dvec3(2.4))))
-            CHECK(sites.round_edge[i] == SurfaceSites::none);
+            CHECK(sites.over_edge[i] == SurfaceSites::none);
     }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("solid goes round a sharp edge", "[texture]") {
     for (std::size_t i = 0; i < sites.size(); ++i)
         values.push_back(sites.normals[i].z > 0.5 ? stripe(sites.places[i]) : -1.0F);
     const std::vector<float> before = values;
-    share_round_edges(sites, values);
+    share_over_edges(sites, values);
     int solid = 0;
     for (std::size_t i = 0; i < sites.size(); ++i) {
         const dvec3 place = sites.places[i];
