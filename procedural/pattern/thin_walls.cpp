@@ -63,7 +63,11 @@ void set_across(SurfaceSites& sites, const Field& body, double thickness) {
     if (thin.empty()) return;
     sites.across.assign(sites.size(), SurfaceSites::none);
     const std::vector<std::uint32_t> nearest = nearest_sites(sites, places, normals);
-    for (std::size_t k = 0; k < thin.size(); ++k) sites.across[thin[k]] = nearest[k];
+    constexpr double farthest = 2;  // spacings: beyond, no site stands for the place
+    for (std::size_t k = 0; k < thin.size(); ++k) {
+        if (length(sites.way(places[k], sites.places[nearest[k]])) <= farthest * sites.spacing)
+            sites.across[thin[k]] = nearest[k];
+    }
 }
 
 std::vector<std::uint32_t> back_sites(const SurfaceSites& sites) {

@@ -16,7 +16,7 @@ void set_across(SurfaceSites& sites, const Field& body, double thickness);
 /// with fewer sites. None where a side meets itself, as in a hollow that is closed but for a thin wall.
 std::vector<std::uint32_t> back_sites(const SurfaceSites& sites);
 
-/// Replaces the values of some sites on thin walls by those across.
+/// Replaces the values of sites on thin walls by those across. `values` are by site.
 void copy_across(const SurfaceSites& sites, std::span<const std::uint32_t> back, std::vector<float>& values);
 
 /// Makes the pattern solid where the other side of a thin wall is. Each half of a wall takes the pattern of
